@@ -1,0 +1,48 @@
+# What every target of the project shares.
+add_library(bosquet_options INTERFACE)
+target_compile_features(bosquet_options INTERFACE cxx_std_20)
+target_include_directories(bosquet_options INTERFACE "${PROJECT_SOURCE_DIR}")
+# The same bits in every build: no contraction to fused multiply-add, no fast-math, no -march.
+target_compile_options(bosquet_options INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wpedantic
+                                                 $<$<BOOL:${BOSQUET_WERROR}>:-Werror>)
+if(BOSQUET_SANITIZE)
+  target_compile_options(bosquet_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                   -fno-omit-frame-pointer)
+  target_link_options(bosquet_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_program(BOSQUET_CCACHE ccache)
+if(BOSQUET_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${BOSQUET_CCACHE}")
+endif()
+
+# bosquet_library(growth SOURCES a.cpp b.cpp PUBLIC targets... PRIVATE targets...)
+# makes the static library bosquet_growth with the alias bosquet::growth. PUBLIC only for what its headers show.
+function(bosquet_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(bosquet_${name} STATIC ${arg_SOURCES})
+  add_library(bosquet::${name} ALIAS bosquet_${name})
+  target_link_libraries(bosquet_${name} PUBLIC bosquet_options ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# bosquet_test(growth SOURCES a_test.cpp ... LINK bosquet::growth [LABELS statistical])
+# makes the program growth_test; each of its tests is known to ctest, label "quick" unless LABELS says otherwise.
+function(bosquet_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT arg_LABELS)
+    set(arg_LABELS quick)
+  endif()
+  add_executable(${name}_test ${arg_SOURCES})
+  target_link_libraries(${name}_test PRIVATE bosquet_options ${arg_LINK} GTest::gtest_main rapidcheck rapidcheck_gtest)
+  target_compile_definitions(${name}_test PRIVATE BOSQUET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  include(GoogleTest)
+  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${arg_LABELS}" ENVIRONMENT "RC_PARAMS=seed=20140901")
+endfunction()
+
+# bosquet_bench(growth SOURCES growth_bench.cpp LINK bosquet::growth) makes the program growth_bench.
+function(bosquet_bench name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name}_bench ${arg_SOURCES})
+  target_link_libraries(${name}_bench PRIVATE bosquet_options ${arg_LINK} benchmark::benchmark_main)
+endfunction()
