@@ -24,7 +24,7 @@ struct RepresentativeShape {
 };
 
 template <class Parameters, class Visitor>
-void describe_shape(Parameters& p, Visitor& visit) {
+void describe(Parameters& p, Visitor& visit) {
   visit(Real{"trunk_width_m", "m", 0.01, 5, "Trunk diameter of a mature free-standing tree"}, p.trunk_width_m);
   visit(Real{"trunk_height_m", "m", 0, 60, "Height of the crown base of a free-standing tree"}, p.trunk_height_m);
   visit(Real{"crown_width_m", "m", 0.2, 60, "Crown diameter of a mature free-standing tree"}, p.crown_width_m);
