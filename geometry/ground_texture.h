@@ -1,0 +1,39 @@
+// Ground texture: short grass and soil, light and nearly grey, that vertex colours tint into what the ground is.
+//
+// Frame     shows kGroundTileM x kGroundTileM metres and tiles in both directions
+// Colour    sRGB with mean kGroundMean (linear); a vertex colour of ground_tint(c) makes its mean the linear colour c
+// Normal    linear, tangent space, +y up in the image, as glTF
+// Holds     a pure function of its arguments, the same bits for any thread count, build and x86-64 CPU
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+#include "core/vec.h"
+
+namespace bosquet::geometry {
+
+inline constexpr float kGroundTileM = 3.0f;
+
+/// Mean linear colour of the texture.
+inline constexpr Vec3 kGroundMean{0.42f, 0.42f, 0.38f};
+
+/// Albedos, linear, of what the ground may be.
+inline constexpr Vec3 kMeadowColour{0.105f, 0.135f, 0.045f};
+inline constexpr Vec3 kForestFloorColour{0.095f, 0.075f, 0.045f};
+inline constexpr Vec3 kSoilColour{0.120f, 0.085f, 0.055f};
+inline constexpr Vec3 kGravelColour{0.330f, 0.300f, 0.250f};
+inline constexpr Vec3 kWetSandColour{0.150f, 0.120f, 0.085f};
+
+/// The linear vertex colour that gives the ground this mean albedo; clamped to 1.
+inline Vec3 ground_tint(const Vec3& albedo) { return glm::min(albedo / kGroundMean, Vec3(1.0f)); }
+
+struct GroundTextures {
+  Image base_colour;  ///< RGB
+  Image normal;       ///< RGB
+};
+
+/// `size` pixels a side: a power of two, 64 to 4096.
+GroundTextures make_ground(std::uint64_t seed, int size);
+
+}  // namespace bosquet::geometry
