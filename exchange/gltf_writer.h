@@ -1,0 +1,52 @@
+// glTF writer: a model as .glb, or as .gltf with a .bin and image files beside it.
+//
+// Source    glTF 2.0 (ISO/IEC 12113:2022); KHR_lights_punctual for the sun
+// Model     a glTF node for each node of the model (name, translation, extras) with one mesh of a primitive per part.
+//           Parts that use the same TriangleMesh share its accessors, nodes with the same parts share the mesh.
+// Layout    POSITION and NORMAL float; TEXCOORD_0 16-bit when all lie in [0, 1], else float, absent without textures;
+//           COLOR_0 8-bit, absent when all white; indices 16-bit up to 65,535 vertices, else 32-bit. Meshes are packed
+//           in groups of about 32 MB, in each group one buffer view per kind of data.
+// Images    JPEG for colour without alpha and for normal maps, PNG where alpha is tested
+// Frame     world, metres, +Y up: glTF's own; numbers go out as they are. Degrees become radians.
+// Decision  the sun's intensity is `sun_intensity`, not its 100,000 lux, since most viewers have no exposure control
+// Holds     same model and options, same bytes: no time, no path, no thread count; nothing unused is written; the file
+//           appears whole or not at all
+// Errors    `input`: a .glb that would exceed 2^32 - 1 bytes (refused before writing, with its size and ways out), an
+//           ending other than .glb or .gltf, what FileOutput refuses. `cannot_finish`: disk full, cancelled, a mesh
+//           with indices out of range or numbers that are not finite (names the node).
+// Cost      one pass over the vertices to measure, one to order and write; besides the model one group of meshes and
+// the
+//           encoded images are held
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "exchange/texture_cache.h"
+#include "scene/model.h"
+
+namespace bosquet::exchange {
+
+struct GltfOptions {
+  std::string version;                     ///< of the program; goes into asset.generator
+  const TextureCache* textures = nullptr;  ///< keeps encoded images between runs
+  Progress* progress = nullptr;            ///< stage "export", counted in triangles / 1024; asked for cancellation
+  bool reorder = true;                     ///< order for the vertex cache; false writes triangles as they come
+  float sun_intensity = 3.0f;              ///< of the directional light, "lux"; 3 lights white to about 1 in viewers
+};
+
+/// What a model holds, before or without writing it.
+struct ModelCount {
+  std::uint64_t triangles = 0;  ///< as drawn
+  std::uint64_t vertices = 0;   ///< as stored
+};
+ModelCount count(const scene::Model& model);
+
+/// Writes `path` (ending .glb or .gltf); returns the bytes of all files written.
+Result<std::uint64_t> write_gltf(const scene::Model& model, const std::filesystem::path& path,
+                                 const GltfOptions& options = {});
+
+}  // namespace bosquet::exchange

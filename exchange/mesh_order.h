@@ -1,0 +1,30 @@
+// Mesh order: triangles and vertices in the order that graphics hardware reads fastest.
+//
+// Source    meshoptimizer: vertex cache order (Forsyth's and Sander's ideas), then vertices in order of first use
+// Holds     the same triangles with the same windings; every vertex kept is used by a triangle; same mesh, same result
+// Cost      about 0.1 s per million triangles
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace bosquet::exchange {
+
+/// New indices, and for each new vertex the old one it is.
+struct MeshOrder {
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> vertices;
+};
+
+/// All indices are below positions.size() and their number is a multiple of three.
+MeshOrder best_order(const TriangleMesh& mesh);
+
+/// Triangles as they are, only unused vertices left out.
+MeshOrder present_order(const TriangleMesh& mesh);
+
+/// The mesh in its best order.
+TriangleMesh optimise(const TriangleMesh& mesh);
+
+}  // namespace bosquet::exchange
