@@ -29,6 +29,7 @@ struct Skeleton {
 
   int seasons = 0;               ///< seasons grown
   float internode_length_m = 0;  ///< l of this tree
+  float detail = 1;              ///< it was grown with
 
   std::size_t size() const { return parent.size(); }
   bool alive(std::size_t i) const { return shed[i] == kNever; }

@@ -1,0 +1,53 @@
+// Grow: one tree from seed to its final height.
+//
+// Source    Longay 2014, chapter 4 and 6.6, after Runions et al. 2007 (space) and Palubicki et al. 2009 (light, vigor)
+// Model     a season: light of each bud (light.h), space by markers (space.h), signal down and vigor up (vigor.h), fate
+//           n = floor(v / v_max * n_max), deflection, extension metamer by metamer (shoots.h), shedding; seasons repeat
+//           until an internode passes h_max, nothing grew for three seasons, or max_seasons
+// Frame     tree frame: origin at the tree's base, x east, y up, z south; metres
+// Decision  a metamer's lateral buds stand at its base; the first metamer of an axis carries none (its base is the
+//           parent's node)
+// Decision  h_max / l is kept >= 40: a small tree has smaller internodes, and with them r, d, shadow cells and twigs
+// Decision  detail k makes internodes k times shorter and keeps r, d and shadow cells in metres
+// Holds     the skeleton is a pure function of the input: the same bits on any thread, in any order, in any build
+// Cost      about 2-5 microseconds an internode; work arrays are kept per thread from tree to tree
+#pragma once
+
+#include <cstdint>
+
+#include "core/progress.h"
+#include "core/vec.h"
+#include "crowns/crown_region.h"
+#include "growth/parameters.h"
+#include "growth/skeleton.h"
+#include "growth/transmittance.h"
+
+namespace bosquet::growth {
+
+struct GrowthInput {
+  const Parameters* parameters = nullptr;       ///< passed check()
+  float max_height_m = 20.0f;                   ///< h_max, height at which this tree stops
+  const crowns::CrownRegion* region = nullptr;  ///< where markers may stand; null: anywhere above y = 0
+  Vec3 asymmetry{0.0f};                         ///< V, horizontal
+  const Transmittance* light = nullptr;         ///< of the other trees' canopy; null: full light
+  float clear_stem_m = 0.0f;                    ///< no marker stands below
+  float detail = 1.0f;                          ///< 0.25 - 4
+  std::uint64_t seed = 0;                       ///< of the document
+  std::uint64_t key = 0;                        ///< of the tree
+};
+
+/// How much work a tree was: to tell a faster program from one that does less.
+struct GrowthWork {
+  std::uint64_t markers_tested = 0;
+  std::uint64_t bud_visits = 0;
+  std::uint64_t shadow_updates = 0;  ///< internodes that cast, took back or moved their shadow
+};
+
+/// Grows one tree. Callers run it for many trees in parallel. Asks progress (may be null) once a season; after a cancel
+/// the skeleton is incomplete, to be dropped.
+Skeleton grow(const GrowthInput& input, const Progress* progress = nullptr, GrowthWork* work = nullptr);
+
+/// Hash of everything that grow() depends on: equal hashes, equal skeletons. For caches.
+std::uint64_t hash(const GrowthInput& input);
+
+}  // namespace bosquet::growth
