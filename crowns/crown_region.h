@@ -1,8 +1,10 @@
 // Crown region: the room that one tree won, as a dense bit grid that answers "may a marker stand here?".
 //
 // Frame     tree frame: origin at the tree's base, x east, y up, z south, metres
-// Layout    voxel (i, j, k) spans low + (i*voxel_m, j*layer_m, k*voxel_m) to the next; bit (j * cells.z + k) * cells.x
-// + i Holds     nothing outside the grid belongs to the region
+// Layout    voxel (i, j, k) spans low + (i * voxel_m, j * layer_m, k * voxel_m) to the next one; its bit is number
+//           (j * cells.z + k) * cells.x + i, bit b of word b / 64 is 1 << (b % 64)
+// Holds     nothing outside the grid belongs to the region
+// Who       crown_space.h makes it, growth reads it
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // Representative shape: what a tree claims space with before it is grown, a trunk cylinder under a crown ellipsoid.
 //
-// Source    Longay 2014, 6.2. Erratum: the projected area is pi * (C_w/2)^2, the source prints pi * C_w^2 / 2
-// Units     metres at scale 1; an instance multiplies heights by its S_h and widths by its S_w
+// Source    Longay 2014, 6.2. Erratum: the projected crown area is pi * (C_w / 2)^2, the source prints pi * C_w^2 / 2
+// Model     trunk T_w wide and T_h high, then a crown C_w wide and C_h high; mature_height_m = T_h + C_h
+// Units     metres at scale 1; an instance multiplies heights by its S_h and widths (the trunk's too) by its S_w
 #pragma once
 
 #include "core/parameter.h"
@@ -10,11 +11,11 @@
 namespace bosquet::crowns {
 
 struct RepresentativeShape {
-  float trunk_width_m = 0.5f;     ///< T_w
-  float trunk_height_m = 3.0f;    ///< T_h, height of the crown base
-  float crown_width_m = 10.0f;    ///< C_w
-  float mature_height_m = 20.0f;  ///< T_h + C_h
-  float leaf_area_density = 0.5f;
+  float trunk_width_m = 0.5f;      ///< T_w
+  float trunk_height_m = 3.0f;     ///< T_h, height of the crown base
+  float crown_width_m = 10.0f;     ///< C_w
+  float mature_height_m = 20.0f;   ///< T_h + C_h
+  float leaf_area_density = 0.5f;  ///< m2 of leaves in a m3 of crown
 
   float crown_height_m() const { return mature_height_m - trunk_height_m; }
   float projected_area_m2(float scale_width) const {
