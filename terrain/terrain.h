@@ -6,8 +6,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "core/vec.h"
 #include "terrain/heightfield.h"
@@ -26,5 +25,17 @@ struct Terrain {
   bool under_water(Vec2 plan) const { return water_level_m && ground(plan) < *water_level_m; }
   bool excluded(Vec2 plan) const { return exclusion.at(plan) >= 0.5f; }
 };
+
+/// Ground without water and exclusions, with full planting density everywhere.
+inline Terrain make_terrain(Heightfield height) {
+  const Lattice lattice = height.lattice();
+  return {std::move(height), std::nullopt, Mask(lattice, 0.0f), Mask(lattice, 1.0f)};
+}
+
+/// Whether a plan position lies on the site.
+inline bool on_site(const Terrain& terrain, Vec2 plan) {
+  const Vec2 size = terrain.size_m();
+  return plan.x >= 0.0f && plan.y >= 0.0f && plan.x <= size.x && plan.y <= size.y;
+}
 
 }  // namespace bosquet::terrain

@@ -1,0 +1,98 @@
+// Probability field: how likely each place of a site is for the next tree of one species.
+//
+// Source    Longay 2014, 6.4.1 (fields multiplied by kernels; drawn by summing rows and columns)
+// Model     weight of a cell = suitability * 2^(sum of log2 K over the standing trees), 0 where a tree leaves no room
+// Decision  logarithms instead of products, and integers instead of floats: a cell holds an int32 sum of log2 K in
+// steps
+//           of 2^-16 and a count of the trees that cover it; its weight is a 64-bit fixed-point number, the exponent
+//           clamped to [-20, 20). So adding and taking away are exact and in any order, a field is a function of the
+//           trees standing, and no number of overlapping kernels overflows a weight
+// Drawing   instead of the source's rows and columns a quadtree of sums is descended. Every node has a random number
+//           u(key, attempt, node) of its own and at each node the child with the smallest -log2(u) / sum is taken,
+//           which happens with probability proportional to the sum. When a part of the site loses its weight only the
+//           draws that fell there change; all others stay
+// Layout    cells in blocks of 4 x 4, so a block's logarithms are one cache line; sums are kept for blocks and above
+// Frame     cell (i, j) spans (i, j) * cell_m to the next, i east, j north; (0, 0) at the site's south-west corner
+// Cost      a kernel: its blocks; a draw: the mask's rim and four numbers a level
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "core/vec.h"
+#include "distribution/kernels.h"
+#include "distribution/region_mask.h"
+
+namespace bosquet::distribution {
+
+inline constexpr int kMostFieldCells = 4096;  ///< along a side
+
+/// What one standing tree does to a field.
+struct Stamp {
+  Vec2 at{0.0f};
+  float trunk_radius_m = 0.0f;               ///< r
+  float active_radius_m = 0.0f;              ///< a; no kernel when not above r
+  const KernelTable* log2_kernel = nullptr;  ///< none when null
+  float covered_radius_m = 0.0f;             ///< cells wholly within are closed
+};
+
+class ProbabilityField {
+ public:
+  /// `suitability` of each cell (0 never, 255 fully), row by row from the south; empty: 255 everywhere.
+  ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability = {});
+
+  void add(const Stamp& stamp) { apply(stamp, 1); }
+  void remove(const Stamp& stamp) { apply(stamp, -1); }
+
+  /// Closes a cell, or opens it once for each time it was closed.
+  void close(IVec2 cell) { change_cover(cell, 1); }
+  void open(IVec2 cell) { change_cover(cell, -1); }
+
+  /// A cell inside the mask, drawn by weight, or nothing when no weight is left there. `sums` is scratch.
+  std::optional<IVec2> draw(const RegionMask& mask, const RandomStream& stream, std::uint64_t attempt,
+                            std::vector<std::uint64_t>& sums) const;
+
+  /// Sum of the weights inside the mask.
+  std::uint64_t sum(const RegionMask& mask) const;
+
+  /// 2^20 where nothing acts.
+  std::uint64_t weight(IVec2 cell) const;
+
+  IVec2 cells() const { return cells_; }
+  float cell_m() const { return cell_m_; }
+  int top() const { return top_; }  ///< level of the root
+  RegionMask mask(const Region& region) const { return {region, cells_, cell_m_, top_}; }
+
+  /// The same state, bit for bit.
+  bool operator==(const ProbabilityField&) const = default;
+
+ private:
+  struct Level {
+    IVec2 nodes{0};
+    std::vector<std::uint64_t> sums;
+    bool operator==(const Level&) const = default;
+  };
+
+  void apply(const Stamp& stamp, int sign);
+  void change_cover(IVec2 cell, int by);
+  void sum_block(std::size_t block);
+  void sum_above(IVec2 low, IVec2 high);
+  std::size_t place(IVec2 cell) const;
+  std::uint64_t cell_weight(std::size_t place) const;
+  std::uint64_t node_sum(int level, int x, int y) const;
+  void sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const;
+
+  IVec2 cells_;
+  float cell_m_;
+  IVec2 blocks_;
+  int top_ = 0;
+  std::vector<std::int32_t> log2_;         // in steps of 2^-16
+  std::vector<std::uint16_t> cover_;       // how many trees leave no room
+  std::vector<std::uint8_t> suitability_;  // 0 beyond the site
+  std::vector<Level> levels_;              // levels_[n] holds level n + 2
+};
+
+}  // namespace bosquet::distribution
