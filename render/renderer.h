@@ -1,0 +1,64 @@
+// Renderer: draws a model as an architect would want it on a board.
+//
+// Light     sun and sky from one atmosphere (render/atmosphere.h); the sun through cascaded shadow maps with soft edges,
+//           the sky through a blurred map of what stands overhead, so that ground under crowns is dim and never black
+// Surfaces  leaves let light through and keep their cover at any distance (alpha to coverage, mips that keep cover);
+//           bark, ground and obstacles take normal maps without tangents; water mirrors scene and sky by Fresnel
+// Output    sRGB, 4 channels, alpha 255 (0 where `sky` is off and nothing stands)
+// Context   everything here needs a current OpenGL context of at least 3.3 core on the calling thread: from
+//           render/headless_context.h or from a window; the destructor too
+// Errors    no usable context, too little graphics memory, a size the driver cannot draw: Result, kind cannot_finish;
+//           a size or sample count outside the ranges of render/view.h: kind input
+// Holds     the same model and view give the same picture on one machine and driver; other drivers differ slightly
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "core/image.h"
+#include "core/result.h"
+#include "render/view.h"
+#include "scene/model.h"
+
+namespace bosquet::render {
+
+/// What the last draw() cost, all passes and tiles together.
+struct DrawFacts {
+  std::size_t triangles_sent = 0;    ///< after culling, over all passes
+  std::size_t triangles_viewed = 0;  ///< of the main pass alone
+  int draws = 0, tiles = 0, samples = 0;
+};
+
+class Renderer {
+ public:
+  /// A renderer for the current context.
+  static Result<Renderer> create();
+
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// Copies the model to graphics memory, in place of an earlier one; meshes that several nodes share are copied once.
+  /// Nothing of `model` is needed afterwards.
+  Result<void> upload(const scene::Model& model);
+
+  /// The picture, first row at the top. Drawn in tiles when it is larger than the driver's or our limit.
+  Result<Image> draw(const View& view);
+
+  /// The same picture into a bound framebuffer object of the caller (0: the window) of view.width x view.height with
+  /// sRGB encoding on; `supersample` and `samples` are the caller's business there.
+  Result<void> draw_into(unsigned framebuffer, const View& view);
+
+  /// Longest side of a tile in pixels (default 4096, at least 16); tests draw small tiles.
+  void set_tile_limit(int pixels);
+
+  const DrawFacts& facts() const;
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bosquet::render
