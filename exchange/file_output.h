@@ -50,7 +50,6 @@ class FileOutput {
   void flush();
   void write_through(const std::byte* data, std::size_t n);
   void discard();
-  Error error() const;
 
   std::filesystem::path target_, hidden_;  ///< hidden_ is empty when written directly
   std::vector<std::byte> buffer_;

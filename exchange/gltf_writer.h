@@ -31,11 +31,12 @@
 namespace bosquet::exchange {
 
 struct GltfOptions {
-  std::string version;                     ///< of the program; goes into asset.generator
-  const TextureCache* textures = nullptr;  ///< keeps encoded images between runs
-  Progress* progress = nullptr;            ///< stage "export", counted in triangles / 1024; asked for cancellation
-  bool reorder = true;                     ///< order for the vertex cache; false writes triangles as they come
-  float sun_intensity = 3.0f;              ///< of the directional light, "lux"; 3 lights white to about 1 in viewers
+  std::string version;                         ///< of the program; goes into asset.generator
+  const TextureCache* textures = nullptr;      ///< keeps encoded images between runs
+  Progress* progress = nullptr;                ///< stage "export", counted in meshes; asked for cancellation
+  bool reorder = true;                         ///< order for the vertex cache; false writes triangles as they come
+  std::uint64_t max_glb_bytes = 0xffff'ffffu;  ///< a .glb's own limit; 2^31 - 1 suits web browsers
+  float sun_intensity = 3.0f;  ///< of the directional light, "lux"; 3 lights white to about 1 in viewers
 };
 
 /// What a model holds, before or without writing it.
