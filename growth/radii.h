@@ -1,11 +1,12 @@
 // Radii: how thick each internode is, from the wood that it carries.
 //
 // Source    Longay 2014, 5.3, eq. 5.1-5.3, the pipe model (Shinozaki et al. 1964)
-// Model     d^n = sum d_i^n + p * d_e^n over the children d_i; a tip counts as one child of width d_e
-// Decision  every internode adds its own pipe (p = 1 / detail; the source is the case p = 0), and pipes of shed wood
-//           stay: that thickens old trees and lets shoots taper
+// Model     d^n = sum d_i^n + p * d_e^n over the children d_i, p = 1 / detail; a tip is d_e wide
+// Decision  every internode adds its own pipe (the source is the case p = 0), and pipes of shed wood stay: that
+// thickens
+//           old trees and lets shoots taper
 // Erratum   the derivative of d^n by n is d^n log d; the source prints 3 d^n / d_e
-// Units     metres; d_e = tip_diameter_m, n = pipe_exponent
+// Units     metres; d_e, n and detail are kept in the skeleton
 // Errors    a width that no exponent gives: not wider than the wood it carries
 #pragma once
 
@@ -13,30 +14,22 @@
 #include <vector>
 
 #include "core/result.h"
-#include "growth/parameters.h"
 #include "growth/skeleton.h"
 
 namespace bosquet::growth {
 
-/// What the pipes of a skeleton are; a grown skeleton knows its own (pipes_of).
-struct Pipes {
-  float tip_diameter_m = 0.006f;
-  float exponent = 2.0f;
-  float pipe_share = 1.0f;  ///< p
-};
-
-/// d_e and p as grow() uses them for this skeleton: both follow its internode length.
-Pipes pipes_of(const Skeleton& skeleton, const Parameters& parameters);
-
 /// Radius of each internode at the end of `season` (the last by default); 0 for what is not born yet. Shed wood keeps
 /// the radius it had when it fell.
-std::vector<float> radii(const Skeleton& skeleton, const Pipes& pipes, int season = -1);
+std::vector<float> radii(const Skeleton& skeleton, int season = -1);
 
 /// Makes the trunk `diameter_m` wide at 1.3 m (at the foot of a smaller tree) by solving the exponent, and sets all
-/// radii. With several stems it is the thickest one. Returns the exponent.
-Result<float> constrain_trunk(Skeleton& skeleton, const Parameters& parameters, float diameter_m);
+/// radii. With several stems it is the thickest one.
+Result<void> constrain_trunk(Skeleton& skeleton, float diameter_m);
 
-/// A number of equal widths that meet.
+/// The internode that crosses 1.3 m on the thickest stem (the foot of a smaller tree); -1 for an empty skeleton.
+int breast_height_internode(const Skeleton& skeleton);
+
+/// Equal widths that meet at a base.
 struct Widths {
   double diameter_m;
   double count;

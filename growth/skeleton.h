@@ -27,9 +27,11 @@ struct Skeleton {
   std::vector<float> light;          ///< exposure L in [0, 1] at its upper end, last season alive
   std::vector<float> vigor;          ///< v / v_max that reached it, last season alive
 
-  int seasons = 0;               ///< seasons grown
-  float internode_length_m = 0;  ///< l of this tree
-  float detail = 1;              ///< it was grown with
+  int seasons = 0;                ///< seasons grown
+  float internode_length_m = 0;   ///< l of this tree
+  float detail = 1;               ///< it was grown with; each internode has 1 / detail pipes
+  float tip_diameter_m = 0.006f;  ///< d_e
+  float pipe_exponent = 2.0f;     ///< n, that the radii were solved with
 
   std::size_t size() const { return parent.size(); }
   bool alive(std::size_t i) const { return shed[i] == kNever; }

@@ -1,0 +1,109 @@
+#include "growth/grow.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/hash.h"
+#include "growth/radii.h"
+#include "growth/tree.h"
+
+namespace bosquet::growth {
+namespace {
+
+constexpr int kIdleSeasons = 3;  ///< seasons without a new internode after which growth ends
+
+/// What every living internode got in the last season; fallen wood has its own already.
+void record_light_and_vigor(Tree& tree) {
+  Skeleton& wood = tree.wood;
+  const Transmittance* sky = tree.input->light;
+  for (std::size_t i = 0; i < wood.size(); ++i) {
+    if (!wood.alive(i)) continue;
+    const float open = sky ? sky->at(wood.distal[i]) : 1.0f;
+    wood.light[i] = std::max(kLeastLight, open * tree.shadow.exposure(wood.distal[i]));
+    if (wood.born[i] + 1 < tree.season) wood.vigor[i] = tree.vigor_share(i);
+  }
+}
+
+/// Feeds every number of the parameters to a hash. In phases and orders the names of the keys that are given count too.
+struct NamedNumbers {
+  Hasher& hasher;
+  void operator()(const Real& info, float v) { hasher.add(info.name).add(v); }
+  void operator()(const Whole& info, int v) { hasher.add(info.name).add(v); }
+};
+struct ParameterHash {
+  Hasher& hasher;
+  void operator()(const Real&, float v) { hasher.add(v); }
+  void operator()(const Whole&, int v) { hasher.add(v); }
+  void operator()(const Switch&, bool v) { hasher.add(v); }
+  void operator()(const Choice&, Phyllotaxis v) { hasher.add(static_cast<int>(v)); }
+  void operator()(const Choice&, BudsAt v) { hasher.add(static_cast<int>(v)); }
+  template <class Item>
+  void operator()(const Tables&, const std::vector<Item>& items) {
+    hasher.add(static_cast<std::uint64_t>(items.size()));
+    for (const Item& item : items) {
+      NamedNumbers named{hasher};
+      describe(item, named);
+    }
+  }
+};
+
+}  // namespace
+
+Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* work) {
+  assert(input.parameters && check(*input.parameters));
+  thread_local Tree tree;
+  plant(tree, input);
+
+  int idle = 0;
+  for (; tree.season < tree.parameters->max_seasons && idle < kIdleSeasons; ++tree.season) {
+    if (progress && progress->cancelled()) break;
+    update_habits(tree);
+    sense_light(tree);
+    compete_for_space(tree);
+    share_vigor(tree);
+    const bool grows = choose_growing(tree);
+    const std::size_t before = tree.wood.size();
+    bool done = false;
+    if (grows) {
+      deflect(tree);
+      done = extend(tree);
+    }
+    shed(tree);
+    bury_dead_buds(tree);
+    idle = tree.wood.size() > before ? 0 : idle + 1;
+    if (done) {
+      ++tree.season;
+      break;
+    }
+  }
+  record_light_and_vigor(tree);
+  tree.wood.seasons = tree.season;
+  if (work) *work = tree.work;
+
+  Skeleton grown = tree.wood;
+  grown.radius = radii(grown);
+  return grown;
+}
+
+std::uint64_t hash(const GrowthInput& input) {
+  Hasher hasher;
+  ParameterHash visit{hasher};
+  describe(*input.parameters, visit);
+  hasher.add(input.max_height_m).add(input.asymmetry).add(input.clear_stem_m).add(input.detail);
+  hasher.add(input.seed).add(input.key);
+  if (const crowns::CrownRegion* r = input.region) {
+    hasher.add(r->low).add(r->voxel_m).add(r->layer_m).add(r->cells.x).add(r->cells.y).add(r->cells.z);
+    hasher.add_all(std::span<const std::uint64_t>(r->bits));
+  }
+  if (const Transmittance* t = input.light) {
+    hasher.add(t->low).add(t->cell_m).add(t->cells.x).add(t->cells.y).add(t->cells.z);
+    for (std::size_t i = 0; i < t->level.size(); i += 8) {
+      std::uint64_t word = 0;
+      for (std::size_t k = i; k < std::min(i + 8, t->level.size()); ++k) word = word << 8 | t->level[k];
+      hasher.add(word);
+    }
+  }
+  return hasher.digest();
+}
+
+}  // namespace bosquet::growth

@@ -1,0 +1,91 @@
+#include "growth/markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scalar.h"
+
+namespace bosquet::growth {
+
+void PerceptionSamples::reset(float depth, float cos_half_angle, bool planar) {
+  if (depth == depth_ && cos_half_angle == cos_ && planar == planar_) return;
+  depth_ = depth, cos_ = cos_half_angle, planar_ = planar;
+  points_.resize(kCount);
+  RandomStream random(0x70657263, 0, Purpose::growth);
+  const float outer = 1.0f + depth;
+  const float half_angle = acos(cos_half_angle);
+  for (Vec3& p : points_) {
+    // In a plane the basis' first direction lies in it and areas count instead of volumes.
+    if (planar) {
+      const float radius = std::sqrt(1.0f + random.uniform() * (outer * outer - 1.0f));
+      const SinCos angle = sin_cos(half_angle * random.uniform(-1.0f, 1.0f));
+      p = {radius * angle.sin, 0.0f, radius * angle.cos};
+      continue;
+    }
+    const float radius = pow(1.0f + random.uniform() * (outer * outer * outer - 1.0f), 1.0f / 3.0f);
+    const float cos = 1.0f - random.uniform() * (1.0f - cos_half_angle);
+    const float sin = std::sqrt(std::max(0.0f, 1.0f - cos * cos));
+    const SinCos azimuth = sin_cos(2.0f * kPi * random.uniform());
+    p = {radius * sin * azimuth.cos, radius * sin * azimuth.sin, radius * cos};
+  }
+}
+
+void CompetitorIndex::build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle) {
+  cos_ = cos_half_angle;
+  inverse_ = 2.0f / reach_m;
+  Box3 box;
+  for (const Competitor& c : competitors) box.add(c.at);
+  sorted_.resize(competitors.size());
+  if (competitors.empty()) {
+    cells_ = IVec3(0);
+    return;
+  }
+  low_ = box.low;
+  cells_ = IVec3((box.high - box.low) * inverse_) + 1;
+
+  // Counting sort by cell; within a cell the order given (by bud) stays.
+  const auto cells =
+      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
+  start_.assign(cells + 1, 0);
+  cell_of_.resize(competitors.size());
+  for (std::size_t i = 0; i < competitors.size(); ++i) {
+    const IVec3 c = glm::min(IVec3((competitors[i].at - low_) * inverse_), cells_ - 1);
+    cell_of_[i] = (c.y * cells_.z + c.z) * cells_.x + c.x;
+    ++start_[static_cast<std::size_t>(cell_of_[i]) + 1];
+  }
+  for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
+  for (std::size_t i = competitors.size(); i-- > 0;) {
+    // From the back: start_[cell + 1] is the end of what is still to be placed.
+    sorted_[static_cast<std::size_t>(--start_[static_cast<std::size_t>(cell_of_[i]) + 1])] = competitors[i];
+  }
+  // Each entry c + 1 now holds the start of cell c: move them down by one.
+  for (std::size_t c = 0; c < cells; ++c) start_[c] = start_[c + 1];
+  start_[cells] = static_cast<std::int32_t>(competitors.size());
+}
+
+std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_t fallback) const {
+  const IVec3 from = glm::max(IVec3(glm::floor((p - low_ - within_m) * inverse_)), IVec3(0));
+  const IVec3 to = glm::min(IVec3(glm::floor((p - low_ + within_m) * inverse_)), cells_ - 1);
+  float best2 = within_m * within_m;
+  std::int32_t best = fallback;
+  for (int y = from.y; y <= to.y; ++y) {
+    for (int z = from.z; z <= to.z; ++z) {
+      const std::size_t row = static_cast<std::size_t>((y * cells_.z + z) * cells_.x);
+      if (from.x > to.x) continue;
+      const auto begin = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(from.x)]);
+      const auto end = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(to.x) + 1]);
+      for (std::size_t i = begin; i < end; ++i) {
+        const Competitor& c = sorted_[i];
+        const Vec3 to_p = p - c.at;
+        const float square = glm::dot(to_p, to_p);
+        if (square > best2 || (square == best2 && c.bud >= best)) continue;
+        const float along = glm::dot(to_p, c.direction);
+        if (along < cos_ * std::sqrt(square)) continue;
+        best2 = square, best = c.bud;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace bosquet::growth

@@ -1,0 +1,62 @@
+// Shadow: how much of the sky a tree's own wood takes from the places below it.
+//
+// Source    Palubicki et al. 2009, shadow propagation; Longay 2014, 4.2.2
+// Model     wood in cell (i, j, k) adds a * b^-q to the cells q = 0 .. q_max layers below within |di|, |dk| <= q
+// Units     cells of 2 l (at detail 1); sums in integers of 2^-16, so that shed wood takes back exactly what it gave
+// Layout    cell (i, j, k) spans low + cell * (i, j, k) to the next; sum[(j * nz + k) * nx + i]; the grid grows when
+//           wood leaves it
+// Cost      (q_max + 1) (2 q_max + 1) (2 q_max + 3) / 3 additions a cast, in rows
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace bosquet::growth {
+
+class ShadowGrid {
+ public:
+  static constexpr float kUnit = 65536.0f;
+
+  /// `strength` is a of one internode. `room` is where wood is expected; it may grow past it.
+  void reset(const Box3& room, float cell_m, float strength, float falloff, int depth);
+
+  void cast(const Vec3& p) { add(p, 1); }
+  void take_back(const Vec3& p) { add(p, -1); }
+
+  /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
+  float exposure(const Vec3& p) const {
+    const IVec3 c = cell(p);
+    if (!inside(c)) return 1.0f;
+    const std::int32_t s = sum_[index(c)] - amount_[0];
+    return s <= 0 ? 1.0f : s >= 65536 ? 0.0f : 1.0f - static_cast<float>(s) * (1.0f / kUnit);
+  }
+
+ private:
+  IVec3 cell(const Vec3& p) const {
+    const Vec3 q = (p - low_) * inverse_;
+    return {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
+  }
+  bool inside(IVec3 c) const {
+    return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < cells_.x && c.y < cells_.y && c.z < cells_.z;
+  }
+  std::size_t index(IVec3 c) const {
+    return (static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells_.z) + static_cast<std::size_t>(c.z)) *
+               static_cast<std::size_t>(cells_.x) +
+           static_cast<std::size_t>(c.x);
+  }
+  void add(const Vec3& p, int sign);
+  void make_room(IVec3 c);
+
+  Vec3 low_{0.0f};
+  float cell_m_ = 1.0f, inverse_ = 1.0f;
+  IVec3 cells_{0};
+  int depth_ = 1;
+  std::array<std::int32_t, 11> amount_{};
+  std::vector<std::int32_t> sum_, old_;
+};
+
+}  // namespace bosquet::growth

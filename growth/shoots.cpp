@@ -1,0 +1,260 @@
+// Shoots: which buds grow, how long, and where to.
+//
+// Source    Longay 2014, 4.3.2 (fate, eq. 4.3), 4.4 (direction, eq. 4.5; deflection), 6.6 (asymmetry, eq. 6.5)
+// Model     n = floor(v / v_max * n_max); H' = normalize(alpha*H + beta*F + gamma*E), F the direction of
+//           S + (1 - sqrt(h/h_max)) * V, S the world's up turned by the set-point angle in the vertical plane through H
+// Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
+// the
+//           bud's node turns rigidly about the node, away from the bud, base first
+// Decision  space is competed for again before each metamer; a bud without a marker ends its shoot, and so does one
+// that
+//           would grow into the ground, or out of its region when it already stands outside (the trunk may)
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/scalar.h"
+#include "growth/gravimorphism.h"
+#include "growth/tree.h"
+
+namespace bosquet::growth {
+namespace {
+
+constexpr float kNearlyVertical = 0.01f;  ///< level part of H below which its vertical plane is drawn at random
+
+Vec3 tropism(Tree& tree, const Habit& habit, const Vec3& h) {
+  Vec3 level{h.x, 0.0f, h.z};
+  const float length = std::sqrt(h.x * h.x + h.z * h.z);
+  if (length > kNearlyVertical) {
+    level /= length;
+  } else if (tree.parameters->planar) {
+    level = {tree.random.bits() & 1 ? 1.0f : -1.0f, 0.0f, 0.0f};
+  } else {
+    const SinCos azimuth = sin_cos(2.0f * kPi * tree.random.uniform());
+    level = {azimuth.cos, 0.0f, azimuth.sin};
+  }
+  const Vec3 set_point = habit.set_point_cos * kUp + habit.set_point_sin * level;
+  if (!tree.leans) return set_point;
+  const float fade = 1.0f - std::sqrt(std::min(1.0f, tree.height_m / tree.input->max_height_m));
+  return normalised_or(set_point + fade * tree.input->asymmetry, set_point);
+}
+
+/// Chance of a lateral bud that stands on `side` of an axis with this heading, at place x of its shoot.
+float bud_factor(const Habit& habit, const Vec3& heading, const Vec3& side, float x) {
+  float factor = 1.0f;
+  if (!habit.neutral_ellipse) {
+    const Vec3 v = most_vertical(heading);
+    const float along_v = glm::dot(side, v), along_p = glm::dot(side, glm::cross(v, heading));
+    factor = v == Vec3{0.0f} ? 1.0f : propensity(habit.s_v, habit.s_p, habit.e_v, heading.y, along_v, along_p);
+  }
+  if (habit.acrotony != 0.0f) factor *= exp(2.0f * habit.acrotony * (2.0f * x - 1.0f));
+  return factor;
+}
+
+/// Lateral buds at the base of internode `carrier`, the metamer `place` of its season's shoot.
+void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const GrowingBud& g) {
+  const Parameters& p = *tree.parameters;
+  Buds& buds = tree.buds;
+  const auto c = static_cast<std::size_t>(carrier);
+  const Vec3 heading = tree.internodes.heading[c];
+
+  // How many stand here.
+  int count = p.phyllotaxis == Phyllotaxis::whorled ? p.whorl : p.phyllotaxis == Phyllotaxis::decussate ? 2 : 1;
+  const bool shoot_end = p.buds_at == BudsAt::shoot_end;
+  if (shoot_end) {
+    if (g.made == 0) {
+      count = p.whorl;
+    } else if (tree.random.uniform() >= p.scattered) {
+      count = 0;
+    } else {
+      count = 1;
+    }
+  }
+  tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
+  tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
+
+  const float x = shoot_end && g.made == 0
+                      ? 1.0f
+                      : (static_cast<float>(g.made) + 0.5f) / static_cast<float>(std::max(1, g.planned));
+  const auto order = static_cast<std::uint8_t>(std::min(255, tree.wood.order[c] + 1));
+  const Habit& habit = tree.habit(order);
+  Vec3 side = normalised_or(buds.side[tip] - glm::dot(buds.side[tip], heading) * heading, basis_around(heading).x);
+  if (count > 0) {
+    const SinCos between = sin_cos(2.0f * kPi / static_cast<float>(count));
+    Vec3 azimuth = side;
+    for (int i = 0; i < count; ++i) {
+      const Vec3 direction = heading * habit.branching_cos + azimuth * habit.branching_sin;
+      const std::int32_t bud = buds.push_back(buds.at[tip], direction, buds.node[tip], order, BudState::lateral);
+      const auto b = static_cast<std::size_t>(bud);
+      buds.carrier[b] = carrier;
+      buds.factor[b] = bud_factor(habit, heading, azimuth, x);
+      buds.sky[b] = buds.sky[tip];
+      tree.living.push_back(bud);
+      azimuth = turned(azimuth, heading, between.sin, between.cos);
+    }
+  }
+
+  // Where the next node's first bud stands.
+  if (p.planar || (count <= 1 && p.phyllotaxis == Phyllotaxis::distichous)) {
+    side = -side;
+  } else if (count > 1) {
+    const SinCos half = sin_cos(kPi / static_cast<float>(count));
+    side = turned(side, heading, half.sin, half.cos);
+  } else if (count == 1 || !shoot_end) {
+    const SinCos turn = sin_cos(radians(p.phyllotactic_angle_deg));
+    side = turned(side, heading, turn.sin, turn.cos);
+  }
+  buds.side[tip] = side;
+}
+
+/// A lateral bud becomes the tip of a new axis.
+void start_axis(Tree& tree, std::size_t bud) {
+  Buds& buds = tree.buds;
+  buds.state[bud] = BudState::terminal;
+  buds.axis[bud] = tree.axes++;
+  tree.tip_of.push_back(static_cast<std::int32_t>(bud));
+  // The first bud stands to a side, level, so that two-ranked branches are flat sprays.
+  const Vec3 h = buds.direction[bud];
+  const Vec3 level = normalised_or(glm::cross(h, kUp), basis_around(h).x);
+  buds.side[bud] = tree.parameters->planar  ? normalised_or(Vec3{h.y, -h.x, 0.0f}, Vec3{1.0f, 0.0f, 0.0f})
+                   : tree.random.bits() & 1 ? level
+                                            : -level;
+}
+
+/// One metamer; false when it may not stand where it would.
+bool add_metamer(Tree& tree, const GrowingBud& g) {
+  Buds& buds = tree.buds;
+  Skeleton& wood = tree.wood;
+  const auto b = static_cast<std::size_t>(g.bud);
+  const Habit& habit = tree.habit(buds.order[b]);
+
+  const Vec3 h = buds.direction[b];
+  const Vec3 space = normalised_or(buds.claimed[b], h);
+  Vec3 heading = habit.alpha * h + habit.beta * tropism(tree, habit, h) + habit.gamma * space;
+  if (tree.parameters->planar) heading.z = 0.0f;
+  heading = normalised_or(heading, h);
+  const Vec3 end = buds.at[b] + tree.length_m * heading;
+
+  if (end.y < 0.0f) return false;
+  if (const crowns::CrownRegion* region = tree.input->region;
+      region && buds.order[b] > 0 && !region->contains(end) && !region->contains(buds.at[b])) {
+    return false;
+  }
+
+  const bool new_axis = buds.state[b] == BudState::lateral;
+  if (new_axis) start_axis(tree, b);
+  const auto internode = static_cast<std::int32_t>(wood.size());
+  const std::int32_t below = buds.node[b];
+  wood.parent.push_back(below);
+  wood.axis.push_back(buds.axis[b]);
+  wood.order.push_back(buds.order[b]);
+  wood.distal.push_back(end);
+  wood.born.push_back(static_cast<std::uint16_t>(tree.season));
+  wood.shed.push_back(kNever);
+  wood.light.push_back(1.0f);
+  wood.vigor.push_back(buds.vigor[b]);
+  tree.internodes.push_back(heading);
+  if (!new_axis && below >= 0) {
+    tree.internodes.next[static_cast<std::size_t>(below)] = internode;
+    set_lateral_buds(tree, internode, b, g);
+  } else {
+    tree.internodes.first_bud.back() = static_cast<std::int32_t>(buds.size());
+  }
+
+  buds.node[b] = internode;
+  buds.at[b] = end;
+  buds.direction[b] = heading;
+  buds.side[b] = normalised_or(buds.side[b] - glm::dot(buds.side[b], heading) * heading, basis_around(heading).x);
+  buds.factor[b] = 1.0f;
+  if (tree.input->light) buds.sky[b] = tree.input->light->at(end);
+  tree.shadow.cast(end);
+  tree.occupancy.add(internode, end);
+  ++tree.work.shadow_updates;
+  tree.height_m = std::max(tree.height_m, end.y);
+  return true;
+}
+
+/// The wood above internode `first`'s base on its axis, its buds and its tip, turn about the base.
+void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, float cos) {
+  Skeleton& wood = tree.wood;
+  Internodes& in = tree.internodes;
+  Buds& buds = tree.buds;
+  const auto f = static_cast<std::size_t>(first);
+  const Vec3 pivot = wood.proximal(f);
+  const auto move_bud = [&](std::size_t b, const Vec3& at) {
+    buds.at[b] = at;
+    buds.direction[b] = turned(buds.direction[b], axis, sin, cos);
+    buds.side[b] = turned(buds.side[b], axis, sin, cos);
+    if (tree.input->light) buds.sky[b] = tree.input->light->at(at);
+  };
+  for (std::int32_t i = first; i >= 0; i = in.next[static_cast<std::size_t>(i)]) {
+    const auto n = static_cast<std::size_t>(i);
+    if (i != first) {
+      for (int k = 0; k < in.buds[n]; ++k) {
+        move_bud(static_cast<std::size_t>(in.first_bud[n] + k), wood.proximal(n));
+      }
+    }
+    tree.shadow.take_back(wood.distal[n]);
+    tree.occupancy.remove(i);
+    wood.distal[n] = pivot + turned(wood.distal[n] - pivot, axis, sin, cos);
+    in.heading[n] = turned(in.heading[n], axis, sin, cos);
+    tree.shadow.cast(wood.distal[n]);
+    tree.occupancy.add(i, wood.distal[n]);
+    ++tree.work.shadow_updates;
+    tree.height_m = std::max(tree.height_m, wood.distal[n].y);
+    if (in.next[n] < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
+  }
+}
+
+}  // namespace
+
+bool choose_growing(Tree& tree) {
+  Buds& buds = tree.buds;
+  tree.growing.clear();
+  const float greatest = tree.greatest_vigor;
+  for (const std::int32_t bud : tree.living) {
+    const auto b = static_cast<std::size_t>(bud);
+    const float share = greatest > 0.0f ? std::min(1.0f, buds.flow[b] / greatest) : 0.0f;
+    buds.vigor[b] = share;
+    const int n =
+        buds.claims[b] > 0 ? static_cast<int>(share * static_cast<float>(tree.habit(buds.order[b]).max_shoot)) : 0;
+    if (n == 0) {
+      ++buds.idle[b];
+      continue;
+    }
+    buds.idle[b] = 0;
+    tree.growing.push_back({bud, n, 0, buds.state[b] == BudState::terminal});
+  }
+  return !tree.growing.empty();
+}
+
+void deflect(Tree& tree) {
+  Buds& buds = tree.buds;
+  for (const GrowingBud& g : tree.growing) {
+    const auto b = static_cast<std::size_t>(g.bud);
+    if (buds.state[b] != BudState::lateral) continue;
+    const auto carrier = static_cast<std::size_t>(buds.carrier[b]);
+    const Habit& habit = tree.habit(buds.order[b]);
+    if (habit.deflection_sin == 0.0f || tree.wood.born[carrier] + 1 != tree.season) continue;
+    const Vec3 axis = glm::cross(buds.direction[b], tree.internodes.heading[carrier]);
+    const float length = std::sqrt(glm::dot(axis, axis));
+    if (length < 1e-4f) continue;
+    turn_shoot(tree, buds.carrier[b], axis / length, habit.deflection_sin, habit.deflection_cos);
+  }
+}
+
+bool extend(Tree& tree) {
+  for (bool first = true; !tree.growing.empty(); first = false) {
+    if (!first) compete_for_space_again(tree);
+    std::size_t kept = 0;
+    for (GrowingBud g : tree.growing) {
+      if (tree.buds.claims[static_cast<std::size_t>(g.bud)] == 0 || !add_metamer(tree, g)) continue;
+      if (++g.made < g.planned) tree.growing[kept++] = g;
+    }
+    tree.growing.resize(kept);
+    if (tree.height_m >= tree.input->max_height_m) return true;
+  }
+  return false;
+}
+
+}  // namespace bosquet::growth

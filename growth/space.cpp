@@ -1,0 +1,74 @@
+// Competition for space: markers dropped around buds, refused where wood, ground or other trees are, and claimed.
+//
+// Source    Longay 2014, 4.2.1 and 4.3.1, fig. 4.4; 6.6 (crown region)
+// Decision  a bud drops 1 + floor(marker_rate * v / v_max) markers, v of the last season; before later metamers only
+// the
+//           buds still growing drop and claim
+#include <algorithm>
+#include <cmath>
+
+#include "growth/tree.h"
+
+namespace bosquet::growth {
+namespace {
+
+bool may_stand(const Tree& tree, const Vec3& p) {
+  if (p.y <= tree.ground_m) return false;
+  if (tree.input->region && !tree.input->region->contains(p)) return false;
+  return !tree.occupancy.occupied(p);
+}
+
+void drop_and_claim(Tree& tree) {
+  Buds& buds = tree.buds;
+  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
+  const float rate = tree.parameters->marker_rate;
+  for (const Competitor& c : tree.competing) {
+    const auto b = static_cast<std::size_t>(c.bud);
+    buds.claimed[b] = Vec3{0.0f}, buds.claims[b] = 0;
+  }
+  std::uint64_t tested = 0;
+  for (const Competitor& c : tree.competing) {
+    const auto b = static_cast<std::size_t>(c.bud);
+    const int markers = 1 + static_cast<int>(rate * buds.vigor[b]);
+    const Basis basis =
+        tree.parameters->planar
+            ? Basis{normalised_or({c.direction.y, -c.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
+            : basis_around(c.direction);
+    std::uint64_t bits = 0;
+    for (int m = 0; m < markers; ++m, bits >>= 12) {
+      if (m % 5 == 0) bits = tree.random.bits();
+      const Vec3 offset = tree.occupied_m * tree.samples.at(static_cast<std::uint32_t>(bits), c.direction, basis);
+      const Vec3 marker = c.at + offset;
+      ++tested;
+      if (!may_stand(tree, marker)) continue;
+      const float distance = std::sqrt(glm::dot(offset, offset));
+      const std::int32_t winner = tree.competitors.nearest(marker, distance, c.bud);
+      const auto w = static_cast<std::size_t>(winner);
+      buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
+      ++buds.claims[w];
+    }
+  }
+  tree.work.markers_tested += tested;
+}
+
+}  // namespace
+
+void compete_for_space(Tree& tree) {
+  tree.competing.clear();
+  for (const std::int32_t bud : tree.living) {
+    const auto b = static_cast<std::size_t>(bud);
+    tree.competing.push_back({tree.buds.at[b], bud, tree.buds.direction[b]});
+  }
+  drop_and_claim(tree);
+}
+
+void compete_for_space_again(Tree& tree) {
+  tree.competing.clear();
+  for (const GrowingBud& g : tree.growing) {
+    const auto b = static_cast<std::size_t>(g.bud);
+    tree.competing.push_back({tree.buds.at[b], g.bud, tree.buds.direction[b]});
+  }
+  drop_and_claim(tree);
+}
+
+}  // namespace bosquet::growth

@@ -1,0 +1,125 @@
+#include "growth/tree.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/scalar.h"
+
+namespace bosquet::growth {
+namespace {
+
+constexpr float kLeastInternodes = 40.0f;  ///< h_max / l is kept at least this
+constexpr float kShadowCell = 2.0f;        ///< in l at detail 1
+
+Box3 expected_room(const GrowthInput& input, float margin_m) {
+  Box3 room;
+  if (const crowns::CrownRegion* r = input.region) {
+    room.add(r->low);
+    room.add(r->low + Vec3(r->cells) * Vec3(r->voxel_m, r->layer_m, r->voxel_m));
+  } else {
+    const float half = 0.35f * input.max_height_m;
+    room.add({-half, 0.0f, -half});
+    room.add({half, input.max_height_m, half});
+  }
+  room.add(Vec3{-margin_m});
+  room.add(Vec3{margin_m});
+  room.low.y = 0.0f;
+  room.high.y = std::min(room.high.y, input.max_height_m + margin_m);
+  return room;
+}
+
+/// A terminal bud at the base, leaning by `lean` to `azimuth`.
+void add_stem(Tree& tree, float lean, float azimuth) {
+  const SinCos l = sin_cos(lean), a = sin_cos(azimuth);
+  const Vec3 direction{l.sin * a.cos, l.cos, l.sin * a.sin};
+  Buds& buds = tree.buds;
+  const std::int32_t bud = buds.push_back(Vec3{0.0f}, direction, kNone, 0, BudState::terminal);
+  const auto b = static_cast<std::size_t>(bud);
+  const SinCos first = sin_cos(2.0f * kPi * tree.random.uniform());
+  const Basis around = basis_around(direction);
+  buds.side[b] = around.x * first.cos + around.y * first.sin;
+  buds.axis[b] = tree.axes++;
+  buds.sky[b] = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
+  tree.tip_of.push_back(bud);
+  tree.living.push_back(bud);
+}
+
+}  // namespace
+
+void Internodes::clear() {
+  next.clear(), first_bud.clear(), buds.clear(), heading.clear();
+  main_signal.clear(), lateral_signal.clear(), main_vigor.clear(), lateral_rate.clear();
+}
+
+void Internodes::push_back(const Vec3& h) {
+  next.push_back(kNone), first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
+  main_signal.push_back(0), lateral_signal.push_back(0), main_vigor.push_back(0), lateral_rate.push_back(0);
+}
+
+void Buds::clear() {
+  at.clear(), direction.clear(), side.clear(), node.clear(), carrier.clear(), axis.clear(), order.clear();
+  state.clear(), factor.clear(), sky.clear(), vigor.clear(), idle.clear(), signal.clear(), flow.clear();
+  claimed.clear(), claims.clear();
+}
+
+std::int32_t Buds::push_back(const Vec3& at_, const Vec3& direction_, std::int32_t node_, std::uint8_t order_,
+                             BudState state_) {
+  at.push_back(at_), direction.push_back(direction_), side.push_back(Vec3{0.0f}), node.push_back(node_);
+  carrier.push_back(kNone), axis.push_back(0), order.push_back(order_), state.push_back(state_);
+  factor.push_back(1.0f), sky.push_back(1.0f), vigor.push_back(0.0f), idle.push_back(0);
+  signal.push_back(0.0f), flow.push_back(0.0f), claimed.push_back(Vec3{0.0f}), claims.push_back(0);
+  return static_cast<std::int32_t>(node.size() - 1);
+}
+
+void plant(Tree& tree, const GrowthInput& input) {
+  const Parameters& p = *input.parameters;
+  assert(input.max_height_m > 0.0f && input.detail > 0.0f);
+  tree.input = &input, tree.parameters = &p;
+
+  // Sizes: everything that is told in internodes follows the length at detail 1.
+  const float length = std::min(p.internode_length_m, input.max_height_m / kLeastInternodes);
+  tree.length_m = length / input.detail;
+  tree.occupied_m = p.occupancy_radius * length;
+  tree.reach_m = (p.occupancy_radius + p.perception_depth) * length;
+  tree.cos_perception = sin_cos(radians(0.5f * p.perception_angle_deg)).cos;
+  tree.ground_m = std::max(0.0f, input.clear_stem_m);
+  tree.leans = input.asymmetry != Vec3{0.0f};
+  tree.phase = -2;
+  tree.random = RandomStream(input.seed, input.key, Purpose::growth);
+  tree.season = 0, tree.height_m = 0.0f, tree.axes = 0;
+  tree.work = {};
+
+  Skeleton& wood = tree.wood;
+  wood.parent.clear(), wood.axis.clear(), wood.order.clear(), wood.distal.clear(), wood.radius.clear();
+  wood.born.clear(), wood.shed.clear(), wood.light.clear(), wood.vigor.clear();
+  wood.seasons = 0;
+  wood.internode_length_m = tree.length_m, wood.detail = input.detail;
+  wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
+  wood.pipe_exponent = p.pipe_exponent;
+  tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
+
+  const Box3 room = expected_room(input, tree.reach_m);
+  tree.shadow.reset(room, kShadowCell * length, p.shadow_strength / input.detail, p.shadow_falloff, p.shadow_depth);
+  tree.occupancy.reset(room, tree.occupied_m);
+  tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
+
+  // Several stems lean apart, evenly around; in a plane to both sides.
+  const float turn = p.planar ? 0.0f : 2.0f * kPi * tree.random.uniform();
+  for (int i = 0; i < p.stems; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(p.stems);
+    const float azimuth = p.planar ? (i % 2 ? kPi : 0.0f) : turn + 2.0f * kPi * share;
+    const float lean = p.stems == 1 ? 0.0f : radians(p.stem_spread_deg) * (0.6f + 0.4f * tree.random.uniform());
+    add_stem(tree, lean, azimuth);
+  }
+}
+
+void update_habits(Tree& tree) {
+  const float share = tree.height_m / tree.input->max_height_m;
+  const int phase = phase_at(*tree.parameters, share);
+  if (phase == tree.phase) return;
+  tree.phase = phase;
+  tree.habits = habits_at(*tree.parameters, share, tree.input->detail);
+}
+
+}  // namespace bosquet::growth
