@@ -56,12 +56,13 @@ Bytes encode(const GltfImage& entry) {
 }  // namespace
 
 std::vector<GltfImage> encode_images(const std::vector<scene::Material>& materials, std::span<const std::size_t> used,
-                                     const TextureCache* cache) {
+                                     bool leaf_normal_maps, const TextureCache* cache) {
   std::vector<GltfImage> images;
   for (std::size_t m : used) {
     const scene::Material& material = materials[m];
     add(images, material.base_colour.get(), colour_use(material), material.name);
-    add(images, material.normal.get(), ImageUse::normal, material.name);
+    if (uses_normal_map(material, leaf_normal_maps))
+      add(images, material.normal.get(), ImageUse::normal, material.name);
   }
   parallel_for(images.size(), [&](std::size_t i) {
     GltfImage& entry = images[i];

@@ -34,8 +34,13 @@ inline ImageUse colour_use(const scene::Material& material) {
   return material.mask ? ImageUse::cut_out : ImageUse::colour;
 }
 
+/// Whether a material's normal map is written; that of a cut-out one only with `leaf_normal_maps`.
+inline bool uses_normal_map(const scene::Material& material, bool leaf_normal_maps) {
+  return material.normal && !material.normal->empty() && (!material.mask || leaf_normal_maps);
+}
+
 /// All images of the materials in `used`, encoded, in order of first use.
 std::vector<GltfImage> encode_images(const std::vector<scene::Material>& materials, std::span<const std::size_t> used,
-                                     const TextureCache* cache);
+                                     bool leaf_normal_maps, const TextureCache* cache);
 
 }  // namespace bosquet::exchange

@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "exchange/mesh_order.h"
+#include "exchange/tangents.h"
 
 namespace bosquet::exchange {
 namespace {
@@ -37,6 +38,8 @@ std::uint64_t element_bytes(Stream stream) {
     case Stream::position:
     case Stream::normal:
       return 12;
+    case Stream::tangent:
+      return 16;
     case Stream::uv_float:
       return 8;
     case Stream::uv_short:
@@ -55,10 +58,12 @@ bool MeshFacts::has(Stream stream) const {
       return true;
     case Stream::normal:
       return !mesh->normals.empty();
+    case Stream::tangent:
+      return bumpy;
     case Stream::uv_float:
-      return textured && !mesh->uvs.empty() && !uv_in_unit_square;
+      return textured && !uv_in_unit_square;
     case Stream::uv_short:
-      return textured && !mesh->uvs.empty() && uv_in_unit_square;
+      return textured && uv_in_unit_square;
     case Stream::colour:
       return coloured;
     case Stream::index_short:
@@ -81,6 +86,8 @@ Result<void> measure(MeshFacts& facts) {
   if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.colours.size()))
     return broken(fmt::format("{} positions, {} normals, {} texture coordinates and {} colours do not go together", n,
                               mesh.normals.size(), mesh.uvs.size(), mesh.colours.size()));
+  if (facts.textured && mesh.uvs.empty()) return broken("its material has a texture, the mesh no coordinates for it");
+  if (facts.bumpy && mesh.normals.empty()) return broken("its material has a normal map, the mesh no normals");
   if (mesh.indices.size() % 3 != 0) return broken(fmt::format("{} indices are no triangles", mesh.indices.size()));
 
   std::vector<bool> used(n, false);
@@ -173,6 +180,7 @@ void encode_group(std::span<const MeshFacts> meshes, const MeshLayout& layout, c
     };
     gather(Stream::position, mesh.positions);
     if (facts.has(Stream::normal)) gather(Stream::normal, mesh.normals);
+    if (facts.has(Stream::tangent)) gather(Stream::tangent, tangents(mesh));
     if (facts.has(Stream::uv_float)) gather(Stream::uv_float, mesh.uvs);
     if (facts.has(Stream::uv_short))
       put(Stream::uv_short, order.vertices.size(), [&](std::size_t k) {

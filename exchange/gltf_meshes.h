@@ -21,8 +21,8 @@
 namespace bosquet::exchange {
 
 /// The kinds of data, in their order within a group.
-enum class Stream { position, normal, uv_float, uv_short, colour, index_short, index_int };
-inline constexpr std::size_t kStreams = 7;
+enum class Stream { position, normal, tangent, uv_float, uv_short, colour, index_short, index_int };
+inline constexpr std::size_t kStreams = 8;
 
 /// Bytes of one element: a vertex's attribute or one index.
 std::uint64_t element_bytes(Stream stream);
@@ -31,6 +31,7 @@ std::uint64_t element_bytes(Stream stream);
 struct MeshFacts {
   const TriangleMesh* mesh = nullptr;
   bool textured = false;       ///< some part draws it with a texture
+  bool bumpy = false;          ///< some part draws it with a normal map
   std::uint64_t vertices = 0;  ///< used by triangles
   Box3 bounds;                 ///< of the used ones
   bool uv_in_unit_square = false;
@@ -40,8 +41,8 @@ struct MeshFacts {
   std::uint64_t count(Stream stream) const;  ///< elements; 0 when it has none
 };
 
-/// Fills in all but `mesh` and `textured`. Error (kind cannot_finish) for indices out of range, arrays of unequal
-/// length or numbers that are not finite; the message leaves the mesh's name to the caller.
+/// Fills in all but `mesh`, `textured` and `bumpy`. Error (kind cannot_finish) for indices out of range, arrays of
+/// unequal length or numbers that are not finite; the message leaves the mesh's name to the caller.
 Result<void> measure(MeshFacts& facts);
 
 struct MeshGroup {

@@ -38,7 +38,7 @@ double shortest(float value) {
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   double out = 0;
   std::from_chars(text, end, out);
-  return out;
+  return out + 0.0;  // no "-0.0"
 }
 Json numbers(const Vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
 Json numbers(const Vec4& v) { return {shortest(v.x), shortest(v.y), shortest(v.z), shortest(v.w)}; }
@@ -102,8 +102,10 @@ std::string uri(const std::string& name) {
 
 bool drawable(const scene::Part& part) { return part.mesh && !part.mesh->empty(); }
 
-bool textured(const scene::Material& material) {
-  return (material.base_colour && !material.base_colour->empty()) || (material.normal && !material.normal->empty());
+bool coloured(const scene::Material& material) { return material.base_colour && !material.base_colour->empty(); }
+
+bool textured(const scene::Material& material, const GltfOptions& options) {
+  return coloured(material) || uses_normal_map(material, options.leaf_normal_maps);
 }
 
 // What of the model is used, each once, in order of first use.
@@ -115,7 +117,7 @@ struct Inventory {
   std::vector<int> material_index;  ///< by the model's number; -1: unused
 };
 
-Inventory take_stock(const scene::Model& model) {
+Inventory take_stock(const scene::Model& model, const GltfOptions& options) {
   Inventory stock;
   stock.material_index.assign(model.materials.size(), -1);
   for (const scene::Node& node : model.nodes) {
@@ -127,7 +129,9 @@ Inventory take_stock(const scene::Model& model) {
         stock.meshes.emplace_back().mesh = part.mesh.get();
         stock.mesh_owners.push_back(node.name);
       }
-      stock.meshes[it->second].textured |= textured(model.materials[part.material]);
+      const scene::Material& material = model.materials[part.material];
+      stock.meshes[it->second].textured |= textured(material, options);
+      stock.meshes[it->second].bumpy |= uses_normal_map(material, options.leaf_normal_maps);
       if (stock.material_index[part.material] < 0) {
         stock.material_index[part.material] = static_cast<int>(stock.materials.size());
         stock.materials.push_back(part.material);
@@ -212,6 +216,9 @@ class Document {
       case Stream::normal:
         type(kFloat, "VEC3", false);
         break;
+      case Stream::tangent:
+        type(kFloat, "VEC4", false);
+        break;
       case Stream::uv_float:
         type(kFloat, "VEC2", false);
         break;
@@ -272,7 +279,8 @@ class Document {
     if (const auto t = texture(from.base_colour.get(), colour_use(from), clamp)) pbr["baseColorTexture"]["index"] = *t;
     pbr["metallicFactor"] = 0;
     pbr["roughnessFactor"] = shortest(unit(from.roughness));
-    if (const auto t = texture(from.normal.get(), ImageUse::normal, clamp)) out["normalTexture"]["index"] = *t;
+    if (uses_normal_map(from, options_.leaf_normal_maps))
+      out["normalTexture"]["index"] = *texture(from.normal.get(), ImageUse::normal, clamp);
     if (from.mask) {
       out["alphaMode"] = "MASK";
       out["alphaCutoff"] = shortest(unit(from.alpha_cutoff));
@@ -332,7 +340,9 @@ class Document {
     add_stream("POSITION", Stream::position);
     add_stream("NORMAL", Stream::normal);
     // A mesh may be drawn with a texture here and without there.
-    if (textured(model_.materials[stock_.materials[static_cast<std::size_t>(material)]])) {
+    const scene::Material& look = model_.materials[stock_.materials[static_cast<std::size_t>(material)]];
+    if (uses_normal_map(look, options_.leaf_normal_maps)) add_stream("TANGENT", Stream::tangent);
+    if (textured(look, options_)) {
       add_stream("TEXCOORD_0", Stream::uv_float);
       add_stream("TEXCOORD_0", Stream::uv_short);
     }
@@ -543,11 +553,11 @@ Result<std::uint64_t> write_gltf(const scene::Model& model, const std::filesyste
   if (ending != ".glb" && ending != ".gltf")
     return Error{fmt::format("{}: a glTF file ends in .glb or .gltf", path.string())};
   if (auto checked = check_numbers(model); !checked) return checked.error();
-  Inventory stock = take_stock(model);
+  Inventory stock = take_stock(model, options);
   if (options.progress) options.progress->begin("export", stock.meshes.size());
   if (auto measured = measure_all(stock); !measured) return measured.error();
   const MeshLayout layout = lay_out(stock.meshes);
-  const auto images = encode_images(model.materials, stock.materials, options.textures);
+  const auto images = encode_images(model.materials, stock.materials, options.leaf_normal_maps, options.textures);
   if (options.progress && options.progress->cancelled()) return kCancelled;
   return ending == ".glb" ? write_glb(path, model, stock, layout, images, options)
                           : write_separate(path, model, stock, layout, images, options);

@@ -3,11 +3,14 @@
 // Source    glTF 2.0 (ISO/IEC 12113:2022); KHR_lights_punctual for the sun
 // Model     a glTF node for each node of the model (name, translation, extras) with one mesh of a primitive per part.
 //           Parts that use the same TriangleMesh share its accessors, nodes with the same parts share the mesh.
-// Layout    POSITION and NORMAL float; TEXCOORD_0 16-bit when all lie in [0, 1], else float, absent without textures;
+// Layout    POSITION and NORMAL float, TANGENT float where a normal map is used; TEXCOORD_0 16-bit when all lie in [0,
+// 1], else float, absent without textures;
 //           COLOR_0 8-bit, absent when all white; indices 16-bit up to 65,535 vertices, else 32-bit. Meshes are packed
 //           in groups of about 32 MB, in each group one buffer view per kind of data.
 // Images    JPEG for colour without alpha and for normal maps, PNG where alpha is tested
 // Frame     world, metres, +Y up: glTF's own; numbers go out as they are. Degrees become radians.
+// Decision  normal maps of cut-out materials (leaves) are left out unless asked for: the tangents they need are a third
+//           of the bytes of a tree, for what is seen from very near only
 // Decision  the sun's intensity is `sun_intensity`, not its 100,000 lux, since most viewers have no exposure control
 // Holds     same model and options, same bytes: no time, no path, no thread count; nothing unused is written; the file
 //           appears whole or not at all
@@ -34,6 +37,7 @@ struct GltfOptions {
   std::string version;                         ///< of the program; goes into asset.generator
   const TextureCache* textures = nullptr;      ///< keeps encoded images between runs
   Progress* progress = nullptr;                ///< stage "export", counted in meshes; asked for cancellation
+  bool leaf_normal_maps = false;               ///< write the normal maps of cut-out materials too
   bool reorder = true;                         ///< order for the vertex cache; false writes triangles as they come
   std::uint64_t max_glb_bytes = 0xffff'ffffu;  ///< a .glb's own limit; 2^31 - 1 suits web browsers
   float sun_intensity = 3.0f;  ///< of the directional light, "lux"; 3 lights white to about 1 in viewers

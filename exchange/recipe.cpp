@@ -1,0 +1,342 @@
+#include "exchange/recipe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scene/species_names.h"
+#include "scene/toml_table.h"
+
+namespace bosquet::exchange {
+namespace {
+
+using scene::TomlTable;
+
+// What decides a site's extent: less than a tree's footing, or more than a country's width, is a mistake.
+constexpr double kLeastSite_m = 1.0, kMostSite_m = 200'000.0;
+constexpr std::int64_t kMostTrees = 10'000'000;
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, Recipe& recipe) : folder_(file.parent_path()), recipe_(recipe) {}
+
+  Result<void> read(TomlTable& root, std::optional<std::uint64_t> seed) {
+    read_site(root);
+    if (seed) recipe_.document.seed = *seed;
+    if (auto table = root.table("terrain")) read_ground(*table);
+    if (auto read = read_species(root); !read) return read;
+    for (TomlTable& table : root.tables("interaction")) read_interaction(table);
+    for (TomlTable& table : root.tables("planting")) read_planting(table);
+    if (auto table = root.table("space")) read_space(*table);
+    if (auto table = root.table("asymmetry")) describe_asymmetry(recipe_.document.asymmetry, *table), table->finish();
+    for (TomlTable& table : root.tables("camera")) read_camera(table);
+    if (auto table = root.table("sun")) read_sun(*table);
+    if (auto table = root.table("export")) {
+      if (auto n = table->integer("max_triangles", 0, 1'000'000'000))
+        recipe_.document.max_triangles = static_cast<std::size_t>(*n);
+      table->finish();
+    }
+    root.finish();
+    return {};
+  }
+
+ private:
+  void read_site(TomlTable& root) {
+    auto site = root.table("site");
+    if (!site) return root.error("site", "the table [site] with size_m = [east, north] is missing");
+    if (auto size = site->numbers("size_m", 2)) {
+      for (double side : *size)
+        if (!(side >= kLeastSite_m && side <= kMostSite_m))
+          site->error("size_m", fmt::format("size_m = [{:g}, {:g}] is no site; each side must be {:g} to {:g} m",
+                                            (*size)[0], (*size)[1], kLeastSite_m, kMostSite_m));
+      recipe_.size_m = {static_cast<float>((*size)[0]), static_cast<float>((*size)[1])};
+    } else if (!site->has("size_m")) {
+      site->error("", "size_m = [east, north] in metres is missing in [site]");
+    }
+    if (auto seed = site->integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
+      recipe_.document.seed = static_cast<std::uint64_t>(*seed);
+    scene::Georeference& place = recipe_.document.place;
+    place.latitude_deg = site->number("latitude_deg", -90, 90).value_or(place.latitude_deg);
+    place.longitude_deg = site->number("longitude_deg", -180, 180).value_or(place.longitude_deg);
+    if (auto corner = site->numbers("south_west", 2)) place.south_west = {(*corner)[0], (*corner)[1]};
+    site->finish();
+  }
+
+  void read_ground(TomlTable& table) {
+    GroundRecipe& ground = recipe_.ground;
+    if (auto noise = table.table("noise")) {
+      ground.noise.amplitude_m = 0.3f;
+      describe(ground.noise, *noise), noise->finish();
+    }
+    if (auto dem = table.text("dem")) ground.dem = folder_ / *dem;
+    if (auto corner = table.numbers("dem_south_west", 2))
+      ground.dem_south_west = {(*corner)[0], (*corner)[1]}, ground.dem_corner_given = true;
+    if (auto level = table.number("water_level_m", -10000, 10000)) ground.water_level_m = static_cast<float>(*level);
+    for (TomlTable& item : table.tables("stroke")) {
+      terrain::Stroke stroke;
+      describe(stroke, item);
+      stroke.points = required_points(item, "points");
+      stroke.seed = hash_text("stroke") + ground.strokes.size();
+      item.finish();
+      ground.strokes.push_back(std::move(stroke));
+    }
+    for (TomlTable& item : table.tables("exclusion")) {
+      Polygon area{required_points(item, "polygon"), {}};
+      if (area.ring.size() < 3) item.error("polygon", "a polygon needs at least three points");
+      ground.exclusions.emplace_back(item.text("name").value_or("exclusion"), std::move(area));
+      item.finish();
+    }
+    for (TomlTable& item : table.tables("path")) {
+      PathArea path{item.text("name").value_or("path"), required_points(item, "points"), 2.0f};
+      path.width_m = static_cast<float>(item.number("width_m", 0.1, 1000).value_or(2.0));
+      if (path.points.size() < 2) item.error("points", "a path needs at least two points");
+      ground.paths.push_back(std::move(path));
+      item.finish();
+    }
+    table.finish();
+  }
+
+  // Species named by the recipe, with overrides, come first; built-in ones join when a planting names them.
+  Result<void> read_species(TomlTable& root) {
+    for (TomlTable& table : root.tables("species")) {
+      scene::Species species;
+      const auto name = table.text("name");
+      if (auto file = table.text("file")) {
+        auto read = scene::read_species_file(folder_ / *file);
+        if (!read) return read.error();
+        species = std::move(*read);
+        if (name) species.name = *name;
+      } else {
+        if (!name) table.error("", "a [[species]] needs a name, or a file");
+        // `like` names the species to start from; a name of its own makes a new one.
+        const std::string base = table.text("like").value_or(name.value_or(""));
+        auto builtin = scene::builtin_species(base);
+        if (!builtin) {
+          table.error(table.has("like") ? "like" : "name", builtin.error().message);
+          continue;
+        }
+        species = std::move(*builtin);
+        species.name = name.value_or(species.name);
+      }
+      scene::read_species_tables(table, species);
+      table.finish();
+      if (auto fine = growth::check(species.growth, fmt::format("species {}", species.name)); !fine)
+        table.error("growth", fine.error().message);
+      if (species.shape.trunk_height_m >= species.shape.mature_height_m)
+        table.error("shape", fmt::format("species {}: trunk_height_m = {:g} must be below mature_height_m = {:g}",
+                                         species.name, species.shape.trunk_height_m, species.shape.mature_height_m));
+      if (find_species(species.name)) table.error("name", fmt::format("species '{}' is given twice", species.name));
+      recipe_.document.species.push_back(std::make_shared<const scene::Species>(std::move(species)));
+    }
+    return {};
+  }
+
+  std::optional<std::size_t> find_species(std::string_view name) const {
+    const auto& all = recipe_.document.species;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i]->name == name) return i;
+    return {};
+  }
+
+  // A species by name: the recipe's own, else a built-in one.
+  std::optional<std::size_t> species(TomlTable& table, std::string_view key, const std::string& name) {
+    if (auto found = find_species(name)) return found;
+    auto builtin = scene::builtin_species(name);
+    if (!builtin) {
+      table.error(key, builtin.error().message);
+      return {};
+    }
+    recipe_.document.species.push_back(std::make_shared<const scene::Species>(std::move(*builtin)));
+    return recipe_.document.species.size() - 1;
+  }
+
+  void read_interaction(TomlTable& table) {
+    distribution::Interaction interaction;
+    describe(interaction, table);
+    for (const char* key : {"of", "on"}) {
+      if (!table.has(key))
+        table.error("", fmt::format("[[interaction]] needs '{}', a species' name", key));
+      else
+        species(table, key, std::string(key) == "of" ? interaction.of : interaction.on);
+    }
+    table.finish();
+    recipe_.interactions.push_back(std::move(interaction));
+  }
+
+  void read_planting(TomlTable& table) {
+    PlantingRecipe planting;
+    table(Choice{"kind", kPlantingKindNames, "How the trees are placed"}, planting.kind);
+    planting.name = table.text("name").value_or(fmt::format("planting {}", recipe_.plantings.size() + 1));
+    if (!names_.insert(planting.name).second)
+      table.error("name", fmt::format("two plantings are named '{}'; each needs a name of its own, for its trees' keys",
+                                      planting.name));
+
+    const auto scale =
+        table.has("scale") && planting.kind != PlantingKind::single ? table.numbers("scale", 2) : std::nullopt;
+    if (scale && !((*scale)[0] > 0.02 && (*scale)[0] <= (*scale)[1] && (*scale)[1] <= 4))
+      table.error("scale",
+                  fmt::format("scale = [{:g}, {:g}] must be [smallest, largest], 0.02 to 4", (*scale)[0], (*scale)[1]));
+    double total = 0;
+    if (auto weights = table.weights("species")) {
+      for (const auto& [name, weight] : *weights) {
+        const auto index = species(table, "species", name);
+        if (!index) continue;
+        total += weight;
+        planting.mix.push_back({static_cast<std::uint32_t>(*index), static_cast<float>(weight),
+                                scale ? static_cast<float>((*scale)[0]) : 0.0f,
+                                scale ? static_cast<float>((*scale)[1]) : 0.0f});
+      }
+      if (total == 0) table.error("species", "the shares of the species are all zero");
+    } else if (planting.kind != PlantingKind::inventory && !table.has("species")) {
+      table.error("", "species = { english_oak = 1 } is missing in [[planting]]");
+    }
+
+    switch (planting.kind) {
+      case PlantingKind::fill: {
+        read_area(table, planting);
+        if (auto count = table.integer("count", 0, kMostTrees)) planting.count = static_cast<std::size_t>(*count);
+        if (auto density = table.number("density_per_ha", 0, 1e6)) planting.per_hectare = static_cast<float>(*density);
+        if (table.has("count") == table.has("density_per_ha"))
+          table.error("", "a fill needs either count or density_per_ha");
+        break;
+      }
+      case PlantingKind::brush:
+        describe(planting.brush, table);
+        planting.line = required_points(table, "points");
+        planting.seconds = static_cast<float>(table.number("seconds", 0.02, 3600).value_or(2.0));
+        break;
+      case PlantingKind::hedge:
+        planting.row = distribution::hedge_rules();
+        [[fallthrough]];
+      case PlantingKind::row:
+        describe(planting.row, table);
+        planting.line = required_points(table, "points");
+        if (planting.line.size() < 2) table.error("points", "a row needs at least two points");
+        break;
+      case PlantingKind::grid:
+        describe(planting.grid, table);
+        read_area(table, planting);
+        break;
+      case PlantingKind::single: {
+        if (auto at = table.numbers("at", 2))
+          planting.at = {static_cast<float>((*at)[0]), static_cast<float>((*at)[1])};
+        else if (!table.has("at"))
+          table.error("", "a single tree needs at = [east, north]");
+        planting.scale = static_cast<float>(table.number("scale", 0.02, 4).value_or(1.0));
+        if (planting.mix.size() > 1) table.error("species", "a single tree is of one species");
+        break;
+      }
+      case PlantingKind::inventory:
+        read_inventory_block(table, planting, scale);
+        break;
+    }
+    table.finish();
+    recipe_.plantings.push_back(std::move(planting));
+  }
+
+  void read_area(TomlTable& table, PlantingRecipe& planting) {
+    if (auto ring = table.points("polygon")) {
+      if (ring->size() < 3) table.error("polygon", "a polygon needs at least three points");
+      planting.area = Polygon{std::move(*ring), {}};
+    } else if (auto centre = table.numbers("centre", 2)) {
+      const auto radius = table.number("radius_m", 0.1, kMostSite_m);
+      if (!table.has("radius_m")) table.error("centre", "centre needs radius_m beside it");
+      planting.area = distribution::Disc{{static_cast<float>((*centre)[0]), static_cast<float>((*centre)[1])},
+                                         static_cast<float>(radius.value_or(1.0))};
+    }
+  }
+
+  void read_inventory_block(TomlTable& table, PlantingRecipe& planting,
+                            const std::optional<std::vector<double>>& scale) {
+    if (auto file = table.text("file"))
+      planting.file = folder_ / *file;
+    else if (!table.has("file"))
+      table.error("", "an inventory needs file = \"trees.csv\"");
+    if (auto columns = table.table("columns")) {
+      InventoryColumns& c = planting.columns;
+      for (auto [key, value] : {std::pair{"east", &c.east},
+                                {"north", &c.north},
+                                {"species", &c.species},
+                                {"height", &c.height},
+                                {"trunk_diameter", &c.trunk_diameter},
+                                {"crown_diameter", &c.crown_diameter},
+                                {"id", &c.id}})
+        if (auto text = columns->text(key)) *value = *text;
+      columns->finish();
+    }
+    if (auto corner = table.numbers("south_west", 2)) planting.south_west = {(*corner)[0], (*corner)[1]};
+    const std::string fallback = table.text("default_species").value_or("english_oak");
+    if (auto index = species(table, "default_species", fallback)) planting.default_species = *index;
+    // An inventory may name any built-in species, so all of them are known from here on.
+    for (const std::string& name : scene::builtin_species_names()) species(table, "default_species", name);
+    if (scale)
+      for (std::size_t i = 0; i < recipe_.document.species.size(); ++i)
+        planting.mix.push_back(
+            {static_cast<std::uint32_t>(i), 1.0f, static_cast<float>((*scale)[0]), static_cast<float>((*scale)[1])});
+  }
+
+  void read_space(TomlTable& table) {
+    describe_space(recipe_.document.space, table);
+    if (auto layers = table.integer("layers", 1, 10000)) {
+      recipe_.layers = static_cast<int>(*layers);
+      if (table.has("layer_m")) table.error("layers", "give either layers or layer_m");
+    }
+    table.finish();
+  }
+
+  void read_camera(TomlTable& table) {
+    CameraRecipe camera;
+    camera.name = table.text("name").value_or(fmt::format("camera {}", recipe_.cameras.size() + 1));
+    for (auto [key, value] : {std::pair{"eye", &camera.eye}, {"target", &camera.target}}) {
+      if (auto p = table.numbers(key, 3))
+        *value = {static_cast<float>((*p)[0]), static_cast<float>((*p)[1]), static_cast<float>((*p)[2])};
+      else if (!table.has(key))
+        table.error("", fmt::format("a [[camera]] needs {} = [east, north, metres above the ground]", key));
+    }
+    camera.vertical_fov_deg = static_cast<float>(table.number("fov_deg", 5, 120).value_or(40.0));
+    table.finish();
+    recipe_.cameras.push_back(std::move(camera));
+  }
+
+  void read_sun(TomlTable& table) {
+    scene::Sun& sun = recipe_.document.sun;
+    sun.azimuth_deg = static_cast<float>(table.number("azimuth_deg", -360, 360).value_or(sun.azimuth_deg));
+    sun.elevation_deg = static_cast<float>(table.number("elevation_deg", 0.5, 90).value_or(sun.elevation_deg));
+    table.finish();
+  }
+
+  static std::vector<Vec2> required_points(TomlTable& table, std::string_view key) {
+    auto points = table.points(key);
+    if (!points && !table.has(key)) table.error("", fmt::format("{} = [[east, north], ...] is missing", key));
+    return points.value_or(std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}});
+  }
+
+  std::filesystem::path folder_;
+  Recipe& recipe_;
+  std::set<std::string> names_;
+};
+
+Result<Recipe> read(Result<scene::TomlFile> file, const std::filesystem::path& path,
+                    std::optional<std::uint64_t> seed) {
+  if (!file) return file.error();
+  Recipe recipe;
+  recipe.file = path;
+  TomlTable root = file->root();
+  if (auto done = Reader(path, recipe).read(root, seed); !done) return done.error();
+  if (auto fine = file->check(); !fine) return fine.error();
+  return recipe;
+}
+
+}  // namespace
+
+Result<Recipe> read_recipe(const std::filesystem::path& file, std::optional<std::uint64_t> seed) {
+  return read(scene::TomlFile::read(file), file, seed);
+}
+
+Result<Recipe> parse_recipe(std::string_view text, const std::filesystem::path& file,
+                            std::optional<std::uint64_t> seed) {
+  return read(scene::TomlFile::parse(text, file.string()), file, seed);
+}
+
+}  // namespace bosquet::exchange

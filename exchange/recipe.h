@@ -1,0 +1,107 @@
+// Recipe: a forest as a readable text file (TOML).
+//
+// Format    docs/recipe.md lists every key with type, unit, range and default
+// Frame     plan positions are (east, north) metres from the site's south-west corner; camera heights are metres above
+//           the ground under the camera or target
+// Decision  a recipe is read whole into plain values first (read_recipe), so that mistakes come before any work; then
+//           the ground is made and the trees are planted, block by block in the order of the file (build_document)
+// Holds     the same recipe gives the same document; a tree's key comes from its block's name and its number in it, so
+//           adding a block reshuffles no other block's trees
+// Errors    file, line, key, what is allowed, and the nearest known name
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/polygon.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "distribution/kernels.h"
+#include "distribution/region.h"
+#include "distribution/rows.h"
+#include "distribution/sowing.h"
+#include "exchange/inventory.h"
+#include "scene/document.h"
+#include "scene/grown_scene.h"
+#include "terrain/brush.h"
+#include "terrain/perlin.h"
+
+namespace bosquet::exchange {
+
+struct PathArea {
+  std::string name;
+  std::vector<Vec2> points;
+  float width_m = 2.0f;
+};
+
+struct GroundRecipe {
+  terrain::PerlinNoise noise{.amplitude_m = 0.0f};
+  std::filesystem::path dem;
+  DVec2 dem_south_west{0.0};  ///< the site's corner in the raster's coordinates
+  bool dem_corner_given = false;
+  std::vector<terrain::Stroke> strokes;
+  std::optional<float> water_level_m;
+  std::vector<std::pair<std::string, Polygon>> exclusions;
+  std::vector<PathArea> paths;
+};
+
+enum class PlantingKind { fill, brush, row, grid, hedge, single, inventory };
+inline constexpr std::array<std::string_view, 7> kPlantingKindNames{"fill",  "brush",  "row",      "grid",
+                                                                    "hedge", "single", "inventory"};
+
+struct PlantingRecipe {
+  std::string name;
+  PlantingKind kind = PlantingKind::fill;
+  std::vector<distribution::MixEntry> mix;
+  std::optional<distribution::Region> area;  ///< missing: the whole site
+  std::optional<std::size_t> count;
+  std::optional<float> per_hectare;
+  std::vector<Vec2> line;  ///< of rows, hedges and brush strokes
+  distribution::RowRules row;
+  distribution::GridRules grid;
+  distribution::PlantBrush brush;
+  float seconds = 2.0f;  ///< that the brush stroke took
+  Vec2 at{0.0f};
+  float scale = 1.0f;
+  std::filesystem::path file;
+  InventoryColumns columns;
+  DVec2 south_west{0.0};
+  std::size_t default_species = 0;
+};
+
+struct CameraRecipe {
+  std::string name;
+  Vec3 eye{0.0f}, target{0.0f};  ///< east, north, metres above the ground there
+  float vertical_fov_deg = 40.0f;
+};
+
+struct Recipe {
+  std::filesystem::path file;
+  Vec2 size_m{0.0f};
+  scene::Document document;  ///< species and settings; ground and trees come with build_document
+  GroundRecipe ground;
+  int layers = 0;  ///< of the crown space, when given in place of layer_m
+  std::vector<distribution::Interaction> interactions;
+  std::vector<PlantingRecipe> plantings;
+  std::vector<CameraRecipe> cameras;
+};
+
+/// Reads and checks a recipe. `seed` replaces the recipe's own when given.
+Result<Recipe> read_recipe(const std::filesystem::path& file, std::optional<std::uint64_t> seed = {});
+
+/// The same from text; relative files in it are looked for beside `file`.
+Result<Recipe> parse_recipe(std::string_view text, const std::filesystem::path& file,
+                            std::optional<std::uint64_t> seed = {});
+
+struct BuiltRecipe {
+  scene::Document document;
+  scene::Seconds seconds;  ///< "terrain", "distribution"
+  std::vector<std::string> warnings;
+};
+
+/// Makes the ground and plants the trees.
+Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress = nullptr);
+
+}  // namespace bosquet::exchange

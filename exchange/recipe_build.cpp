@@ -1,0 +1,268 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/hash.h"
+#include "core/stopwatch.h"
+#include "distribution/inventory.h"
+#include "distribution/planting.h"
+#include "exchange/elevation.h"
+#include "exchange/recipe.h"
+#include "scene/species_names.h"
+
+namespace bosquet::exchange {
+namespace {
+
+using distribution::Planting;
+using distribution::StandingTree;
+
+// A list this long says as much as a longer one.
+constexpr std::size_t kListedPlaces = 5;
+
+Result<terrain::Terrain> make_ground(const Recipe& recipe, scene::Georeference& place,
+                                     std::vector<std::string>& warnings) {
+  const GroundRecipe& ground = recipe.ground;
+  auto lattice = terrain::make_lattice(recipe.size_m);
+  if (!lattice) return lattice.error();
+
+  terrain::Terrain site;
+  site.height = terrain::Heightfield(*lattice);
+  site.exclusion = terrain::Mask(*lattice, 0.0f);
+  site.density = terrain::Mask(*lattice, 1.0f);
+  if (!ground.dem.empty()) {
+    auto raster = read_elevation(ground.dem);
+    if (!raster) return raster.error();
+    // Without a corner the site's middle is the raster's, so a site as large as the raster fits it whatever its origin.
+    DVec2 corner = ground.dem_south_west;
+    if (!ground.dem_corner_given)
+      corner = 0.5 * (raster->low_corner() + raster->high_corner()) - 0.5 * DVec2(recipe.size_m);
+    auto heights =
+        heights_at_corners(*raster, corner, lattice->cells.x, lattice->cells.y, static_cast<double>(lattice->cell_m));
+    if (!heights) return heights.error();
+    auto field = terrain::Heightfield::from_samples(*lattice, *heights);
+    if (!field) return field.error();
+    site.height = std::move(*field);
+    place.south_west = corner;
+    place.crs_wkt = raster->crs_wkt;
+    if (raster->filled > 0)
+      warnings.push_back(fmt::format("{}: {} cells without data were filled from their surroundings",
+                                     ground.dem.string(), raster->filled));
+    if (raster->reprojected) warnings.push_back(fmt::format("{}: reprojected to local metres", ground.dem.string()));
+  }
+  if (ground.noise.amplitude_m > 0.0f)
+    site.height = terrain::with_noise(site.height, ground.noise, recipe.document.seed);
+  for (const terrain::Stroke& stroke : ground.strokes) site = terrain::apply(site, stroke);
+  site.water_level_m = ground.water_level_m;
+  for (const auto& [name, area] : ground.exclusions) site = terrain::exclude(site, area);
+  for (const PathArea& path : ground.paths) site = terrain::exclude_path(site, path.points, path.width_m);
+  return site;
+}
+
+std::vector<distribution::Species> planting_species(const scene::Document& document) {
+  std::vector<distribution::Species> species;
+  for (const auto& s : document.species) species.push_back({s->name, s->shape.trunk_width_m, s->planting});
+  return species;
+}
+
+class Planter {
+ public:
+  Planter(const Recipe& recipe, Planting& planting, std::vector<std::string>& warnings, Progress* progress)
+      : recipe_(recipe), planting_(planting), warnings_(warnings), progress_(progress) {}
+
+  Result<void> plant(const PlantingRecipe& block) {
+    distribution::Sowing what{recipe_.document.seed, hash_text(block.name), 0, block.mix};
+    const distribution::Region whole = Box2{Vec2(0.0f), recipe_.size_m};
+    const distribution::Region& area = block.area ? *block.area : whole;
+    switch (block.kind) {
+      case PlantingKind::fill: {
+        const std::size_t count =
+            block.count ? *block.count : distribution::count_to_density(planting_, what, area, *block.per_hectare);
+        take(block, distribution::sow(planting_, what, area, count, progress_));
+        break;
+      }
+      case PlantingKind::brush:
+        take(block, distribution::sow_stroke(planting_, what, block.brush,
+                                             distribution::steady_stroke(block.line, block.seconds), progress_));
+        break;
+      case PlantingKind::row:
+      case PlantingKind::hedge:
+        take(block, distribution::plant_at(planting_, what, distribution::row_places(block.line, block.row),
+                                           block.row.jitter_m));
+        break;
+      case PlantingKind::grid:
+        take(block,
+             distribution::plant_at(planting_, what, distribution::grid_places(area, block.grid), block.grid.jitter_m));
+        break;
+      case PlantingKind::single:
+        plant_single(block);
+        break;
+      case PlantingKind::inventory:
+        return plant_inventory(block);
+    }
+    return {};
+  }
+
+  std::vector<scene::Tree> trees;
+
+ private:
+  scene::Tree& add(const StandingTree& standing) {
+    scene::Tree& tree = trees.emplace_back();
+    tree.id = static_cast<std::int32_t>(trees.size());
+    tree.key = standing.key;
+    tree.species = standing.species;
+    tree.at = standing.at;
+    tree.scale_height = tree.scale_width = standing.scale;
+    return tree;
+  }
+
+  void take(const PlantingRecipe& block, const distribution::Sown& sown) {
+    for (const StandingTree& tree : sown.trees) add(tree);
+    if (sown.no_room)
+      warnings_.push_back(fmt::format("planting '{}': room for only {} of {} trees; the rest was left out", block.name,
+                                      sown.trees.size(), sown.asked));
+  }
+
+  void take(const PlantingRecipe& block, const distribution::Planted& planted) {
+    for (const StandingTree& tree : planted.trees) add(tree);
+    if (planted.left_out.empty()) return;
+    std::string places;
+    for (std::size_t i = 0; i < std::min(kListedPlaces, planted.left_out.size()); ++i) {
+      const distribution::LeftOut& out = planted.left_out[i];
+      places += fmt::format("{}({:.1f}, {:.1f}) {}", i ? ", " : "", out.at.x, out.at.y, distribution::words(out.why));
+    }
+    if (planted.left_out.size() > kListedPlaces)
+      places += fmt::format(" and {} more", planted.left_out.size() - kListedPlaces);
+    warnings_.push_back(fmt::format("planting '{}': {} of {} places left out: {}", block.name, planted.left_out.size(),
+                                    planted.left_out.size() + planted.trees.size(), places));
+  }
+
+  Result<void> plant_places(const PlantingRecipe& block, const distribution::Sowing& what, const Result<std::vector<Vec2>>& places, float jitter_m) {
+    if (!places) return Error{fmt::format("{}: planting '{}': {}", recipe_.file.string(), block.name, places.error().message)};
+    take(block, distribution::plant_at(planting_, what, *places, jitter_m));
+    return {};
+  }
+
+  void plant_single(const PlantingRecipe& block) {
+    const std::uint64_t key = distribution::tree_key(hash_text(block.name), 0);
+    const auto refusal = distribution::plant_one(planting_, key, block.mix.front().species, block.at, block.scale);
+    if (refusal == distribution::Refusal::none)
+      add(*planting_.find(key));
+    else
+      warnings_.push_back(fmt::format("planting '{}': left out at ({:.1f}, {:.1f}): {}", block.name, block.at.x,
+                                      block.at.y, distribution::words(refusal)));
+  }
+
+  Result<void> plant_inventory(const PlantingRecipe& block) {
+    InventoryOptions options{block.columns, block.south_west, DVec2(recipe_.size_m)};
+    auto inventory = read_inventory(block.file, options);
+    if (!inventory) return inventory.error();
+    const std::string file = block.file.string();
+    for (const std::string& note : inventory->notes) warnings_.push_back(fmt::format("{}: {}", file, note));
+    for (const std::string& line : problem_lines(inventory->problems, file)) warnings_.push_back(line);
+
+    const scene::Document& document = recipe_.document;
+    std::map<std::string, std::pair<std::size_t, std::size_t>> substitutions;  // name -> species, count
+    std::vector<scene::Tree> sized;
+    std::vector<StandingTree> standing;
+    for (std::size_t i = 0; i < inventory->trees.size(); ++i) {
+      const InventoryTree& row = inventory->trees[i];
+      const scene::SpeciesMatch match = scene::match_species(row.species, document.species, block.default_species);
+      const scene::Species& species = *document.species[match.species];
+      if (match.how != scene::NameMatch::exact) {
+        auto& [index, count] = substitutions[row.species];
+        index = match.species, ++count;
+      }
+      scene::Tree tree;
+      tree.key = distribution::tree_key(hash_text(block.name), i);
+      tree.species = match.species;
+      const Vec2 range = scale_range(block, match.species);
+      RandomStream stream(document.seed, tree.key, Purpose::scale);
+      tree.scale_height = tree.scale_width = stream.uniform(range.x, range.y);
+      if (row.height_m || row.trunk_diameter_m || row.crown_diameter_m)
+        scene::set_measured_size(tree, species, row.height_m, row.trunk_diameter_m, row.crown_diameter_m);
+      tree.inventory_name = row.species;
+      tree.inventory_id = row.id;
+      StandingTree stands =
+          distribution::standing_tree(tree.key, static_cast<std::uint32_t>(tree.species),
+                                      planting_.species()[tree.species], Vec2(row.plan), tree.scale_width);
+      if (tree.trunk_diameter_m) stands.trunk_radius_m = 0.5f * *tree.trunk_diameter_m;
+      sized.push_back(std::move(tree));
+      standing.push_back(stands);
+    }
+
+    for (const auto& moved : distribution::move_duplicates_apart(standing, recipe_.size_m))
+      warnings_.push_back(fmt::format("{}:{}: same place as line {}; moved from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
+                                      file, inventory->trees[moved.index].line, inventory->trees[moved.twin].line,
+                                      moved.from.x, moved.from.y, moved.to.x, moved.to.y));
+    for (const auto& [name, use] : substitutions)
+      warnings_.push_back(fmt::format("{}: '{}' is not a known species; {} trees are planted as {}", file,
+                                      name.empty() ? "(no name)" : name, use.second,
+                                      document.species[use.first]->name));
+    for (std::size_t i = 0; i < sized.size(); ++i) {
+      planting_.add(standing[i]);
+      sized[i].at = standing[i].at;
+      sized[i].id = static_cast<std::int32_t>(trees.size() + 1);
+      trees.push_back(std::move(sized[i]));
+    }
+    return {};
+  }
+
+  Vec2 scale_range(const PlantingRecipe& block, std::size_t species) const {
+    for (const distribution::MixEntry& entry : block.mix)
+      if (entry.species == species && entry.scale_max > 0) return {entry.scale_min, entry.scale_max};
+    const distribution::PlantingRules& rules = recipe_.document.species[species]->planting;
+    return {rules.scale_min, rules.scale_max};
+  }
+
+  const Recipe& recipe_;
+  Planting& planting_;
+  std::vector<std::string>& warnings_;
+  Progress* progress_;
+};
+
+}  // namespace
+
+Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
+  BuiltRecipe built;
+  built.document = recipe.document;
+  scene::Document& document = built.document;
+
+  Stopwatch watch;
+  auto ground = make_ground(recipe, document.place, built.warnings);
+  if (!ground) return ground.error();
+  document.terrain = std::make_shared<const terrain::Terrain>(std::move(*ground));
+  built.seconds["terrain"] = watch.restart();
+
+  if (progress) progress->begin("planting", recipe.plantings.size());
+  auto planting = Planting::make(*document.terrain, planting_species(document), recipe.interactions);
+  if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
+  Planter planter(recipe, *planting, built.warnings, progress);
+  for (const PlantingRecipe& block : recipe.plantings) {
+    if (auto done = planter.plant(block); !done) return done.error();
+    if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
+  }
+  document.trees = std::make_shared<const std::vector<scene::Tree>>(std::move(planter.trees));
+  if (document.trees->empty() && !recipe.plantings.empty())
+    return Error{fmt::format("{}: no tree could be planted{}{}", recipe.file.string(),
+                             built.warnings.empty() ? "" : ": ", built.warnings.empty() ? "" : built.warnings.back())};
+  built.seconds["distribution"] = watch.restart();
+
+  if (recipe.layers > 0) {
+    float tallest = 0;
+    for (const scene::Tree& tree : *document.trees) tallest = std::max(tallest, document.mature_height_m(tree));
+    document.space.layer_m = std::max(0.05f, tallest / static_cast<float>(recipe.layers));
+  }
+  for (const CameraRecipe& camera : recipe.cameras) {
+    auto place = [&](const Vec3& p) {
+      const Vec2 plan{p.x, p.y};
+      float ground_y = document.terrain->ground(plan);
+      if (document.terrain->water_level_m) ground_y = std::max(ground_y, *document.terrain->water_level_m);
+      return to_world(plan, ground_y + p.z);
+    };
+    document.cameras.push_back({camera.name, place(camera.eye), place(camera.target), camera.vertical_fov_deg});
+  }
+  return built;
+}
+
+}  // namespace bosquet::exchange
