@@ -1,10 +1,10 @@
 #include "render/alpha_mips.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/vec.h"
+#include "render/srgb.h"
 
 namespace bosquet::render {
 namespace {
@@ -17,26 +17,11 @@ struct Level {
   const Vec4& at(int x, int y) const { return const_cast<Level&>(*this).at(x, y); }
 };
 
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> t{};
-    for (std::size_t i = 0; i < 256; ++i) {
-      const float s = static_cast<float>(i) / 255.0f;
-      t[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-    }
-    return t;
-  }();
-  return table;
-}
-
-float srgb_of_linear(float l) { return l <= 0.0031308f ? 12.92f * l : 1.055f * std::pow(l, 1 / 2.4f) - 0.055f; }
-
 std::uint8_t to_byte(float v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
 Level read(const Image& image, TextureKind kind) {
   Level level{image.width, image.height, {}};
   level.texels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  const auto& linear = linear_of_srgb();
   const int n = image.channels;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -44,7 +29,7 @@ Level read(const Image& image, TextureKind kind) {
       const std::uint8_t rgb[3] = {p[0], n >= 3 ? p[1] : p[0], n >= 3 ? p[2] : p[0]};
       Vec4& t = level.at(x, y);
       for (int c = 0; c < 3; ++c)
-        t[c] = kind == TextureKind::colour ? linear[rgb[c]] : static_cast<float>(rgb[c]) / 255.0f;
+        t[c] = kind == TextureKind::colour ? linear_of_srgb(rgb[c]) : static_cast<float>(rgb[c]) / 255.0f;
       t.a = n == 4 ? static_cast<float>(p[3]) / 255.0f : 1.0f;
     }
   return level;
@@ -105,7 +90,7 @@ Image write(const Level& level, TextureKind kind, float scale) {
     for (int x = 0; x < level.width; ++x) {
       const Vec4& t = level.at(x, y);
       std::uint8_t* p = image.at(x, y);
-      for (int c = 0; c < 3; ++c) p[c] = to_byte(kind == TextureKind::colour ? srgb_of_linear(t[c]) : t[c]);
+      for (int c = 0; c < 3; ++c) p[c] = kind == TextureKind::colour ? srgb_of_linear(t[c]) : to_byte(t[c]);
       p[3] = to_byte(t.a * scale);
     }
   return image;

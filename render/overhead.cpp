@@ -1,0 +1,180 @@
+#include "render/overhead.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "render/srgb.h"
+
+namespace bosquet::render {
+namespace {
+
+constexpr float kSmallDiscM = 1.0f, kLargeDiscM = 4.5f;
+constexpr float kSmallestCellM = 0.1f;
+
+/// Calls put(cell index, height) for the cells whose centre lies under a triangle, and for the cell of its centroid.
+template <class Put>
+void rasterise(const Overhead& map, const Vec3& a, const Vec3& b, const Vec3& c, const Put& put) {
+  const auto column = [&](float x) { return static_cast<int>(std::floor((x - map.low.x) / map.cell)); };
+  const auto row = [&](float z) { return static_cast<int>(std::floor((z - map.low.y) / map.cell)); };
+  const auto index = [&](int i, int j) { return static_cast<std::size_t>(j * map.columns + i); };
+  const int i0 = std::max(0, column(std::min({a.x, b.x, c.x}))), j0 = std::max(0, row(std::min({a.z, b.z, c.z})));
+  const int i1 = std::min(map.columns - 1, column(std::max({a.x, b.x, c.x})));
+  const int j1 = std::min(map.rows - 1, row(std::max({a.z, b.z, c.z})));
+  const Vec3 middle = (a + b + c) / 3.0f;
+  const int im = column(middle.x), jm = row(middle.z);
+  if (im >= 0 && jm >= 0 && im < map.columns && jm < map.rows) put(index(im, jm), middle.y);
+  if (i0 == i1 && j0 == j1) return;
+
+  const float area = (b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z);
+  if (std::abs(area) < 1e-9f) return;
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i) {
+      const Vec2 p = map.low + map.cell * Vec2(static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f);
+      const float v = ((p.x - a.x) * (c.z - a.z) - (c.x - a.x) * (p.y - a.z)) / area;
+      const float w = ((b.x - a.x) * (p.y - a.z) - (p.x - a.x) * (b.z - a.z)) / area;
+      if (v >= 0 && w >= 0 && v + w <= 1) put(index(i, j), a.y + v * (b.y - a.y) + w * (c.y - a.y));
+    }
+}
+
+/// Mean over 2 r + 1 cells along rows or columns, ends repeated.
+void box_blur(std::vector<Vec2>& field, int columns, int rows, int r, bool along_rows) {
+  const int lines = along_rows ? rows : columns, length = along_rows ? columns : rows;
+  parallel_for(static_cast<std::size_t>(lines), [&](std::size_t line) {
+    const auto at = [&](int i) -> Vec2& {
+      i = std::clamp(i, 0, length - 1);
+      const int k = along_rows ? static_cast<int>(line) * columns + i : i * columns + static_cast<int>(line);
+      return field[static_cast<std::size_t>(k)];
+    };
+    std::vector<Vec2> out(static_cast<std::size_t>(length));
+    glm::dvec2 sum(0.0);
+    for (int i = -r; i <= r; ++i) sum += glm::dvec2(at(i));
+    for (int i = 0; i < length; ++i) {
+      out[static_cast<std::size_t>(i)] = Vec2(sum / static_cast<double>(2 * r + 1));
+      sum += glm::dvec2(at(i + r + 1)) - glm::dvec2(at(i - r));
+    }
+    for (int i = 0; i < length; ++i) at(i) = out[static_cast<std::size_t>(i)];
+  });
+}
+
+/// Mean base colour of a material's texture, linear.
+Vec3 mean_colour(const scene::Material& material) {
+  Vec3 factor(material.base_factor);
+  if (!material.base_colour || material.base_colour->empty()) return factor;
+  const Image& image = *material.base_colour;
+  Vec3 sum(0.0f);
+  int count = 0;
+  const int step = std::max(1, image.width / 64);
+  for (int y = 0; y < image.height; y += step)
+    for (int x = 0; x < image.width; x += step, ++count) {
+      const std::uint8_t* p = image.at(x, y);
+      const int n = image.channels;
+      sum += Vec3(linear_of_srgb(p[0]), linear_of_srgb(p[n >= 3 ? 1 : 0]), linear_of_srgb(p[n >= 3 ? 2 : 0]));
+    }
+  return factor * sum / static_cast<float>(std::max(1, count));
+}
+
+}  // namespace
+
+Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) {
+  Overhead map;
+  if (bounds.empty()) {
+    map.columns = map.rows = 1;
+    map.cover.assign(1, Vec4(0.0f));
+    map.ground.assign(1, 0.0f);
+    return map;
+  }
+  // A border wide enough that the large disc fades out inside the map.
+  const Vec2 low(bounds.low.x, bounds.low.z), high(bounds.high.x, bounds.high.z);
+  const float border = 2 * kLargeDiscM;
+  const Vec2 extent = high - low + Vec2(2 * border);
+  map.cell = std::max(kSmallestCellM, std::max(extent.x, extent.y) / static_cast<float>(side));
+  map.low = low - Vec2(border);
+  map.columns = std::max(1, static_cast<int>(std::ceil(extent.x / map.cell)));
+  map.rows = std::max(1, static_cast<int>(std::ceil(extent.y / map.cell)));
+  map.base = bounds.low.y;
+  map.scale = std::max(1.0f, bounds.size().y);
+  const std::size_t cells = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
+
+  // Heights of ground and water first, then everything else on top.
+  constexpr float kNothing = -1e30f;
+  map.ground.assign(cells, kNothing);
+  std::vector<float> top(cells, kNothing);
+  float water_area = 0;
+  glm::dvec4 albedo(0.0);
+  for (const scene::Node& node : model.nodes)
+    for (const scene::Part& part : node.parts) {
+      if (!part.mesh) continue;
+      const TriangleMesh& mesh = *part.mesh;
+      const scene::Material& material = model.materials[part.material];
+      const bool ground = material.surface == scene::Surface::ground;
+      if (material.surface == scene::Surface::water) {
+        const Box3 box = mesh.bounds();
+        if (!box.empty() && box.size().x * box.size().z > water_area) {
+          water_area = box.size().x * box.size().z;
+          map.water_level_m = box.high.y + node.translation.y;
+        }
+        continue;
+      }
+      std::vector<float>& heights = ground ? map.ground : top;
+      for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        rasterise(map, mesh.positions[mesh.indices[i]] + node.translation,
+                  mesh.positions[mesh.indices[i + 1]] + node.translation,
+                  mesh.positions[mesh.indices[i + 2]] + node.translation,
+                  [&](std::size_t cell, float height) { heights[cell] = std::max(heights[cell], height); });
+      if (ground && !mesh.positions.empty()) {
+        const Vec3 texture = mean_colour(material);
+        const std::size_t step = std::max<std::size_t>(1, mesh.colours.size() / 4096);
+        for (std::size_t i = 0; i < std::max<std::size_t>(1, mesh.colours.size()); i += step) {
+          const Vec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
+          albedo += glm::dvec4(glm::dvec3(texture * tint), 1.0);
+        }
+      }
+    }
+  if (albedo.w > 0) map.ground_albedo = Vec3(glm::dvec3(albedo) / albedo.w);
+
+  // The land around lies as high as the ground's edge in the middle.
+  std::vector<float> edge;
+  const auto has_ground = [&](int i, int j) {
+    return i >= 0 && j >= 0 && i < map.columns && j < map.rows &&
+           map.ground[static_cast<std::size_t>(j * map.columns + i)] > kNothing;
+  };
+  for (int j = 0; j < map.rows; ++j)
+    for (int i = 0; i < map.columns; ++i)
+      if (has_ground(i, j) &&
+          !(has_ground(i - 1, j) && has_ground(i + 1, j) && has_ground(i, j - 1) && has_ground(i, j + 1)))
+        edge.push_back(map.ground[static_cast<std::size_t>(j * map.columns + i)]);
+  map.land_height = bounds.low.y;
+  if (!edge.empty()) {
+    std::nth_element(edge.begin(), edge.begin() + static_cast<std::ptrdiff_t>(edge.size() / 2), edge.end());
+    map.land_height = edge[edge.size() / 2];
+  }
+  for (std::size_t c = 0; c < cells; ++c) {
+    const float floor = map.ground[c] > kNothing ? map.ground[c] : map.land_height;
+    top[c] = std::max(top[c], floor);
+    map.ground[c] = map.ground[c] > kNothing ? map.ground[c] : map.base;
+  }
+
+  // Means over the discs: three box means after one another are close to a round bell.
+  std::vector<Vec2> moments(cells);
+  map.cover.resize(cells);
+  for (int disc = 0; disc < 2; ++disc) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      const float h = (top[c] - map.base) / map.scale;
+      moments[c] = {h, h * h};
+    }
+    const float radius = disc == 0 ? kSmallDiscM : kLargeDiscM;
+    const int r = std::max(1, static_cast<int>(std::lround(radius / map.cell / 1.7f)));
+    for (int pass = 0; pass < 3; ++pass) {
+      box_blur(moments, map.columns, map.rows, r, true);
+      box_blur(moments, map.columns, map.rows, r, false);
+    }
+    for (std::size_t c = 0; c < cells; ++c) {
+      map.cover[c][2 * disc] = moments[c].x;
+      map.cover[c][2 * disc + 1] = moments[c].y;
+    }
+  }
+  return map;
+}
+
+}  // namespace bosquet::render

@@ -1,0 +1,491 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+#include "render/atmosphere.h"
+#include "render/frustum.h"
+#include "render/gl.h"
+#include "render/gpu_model.h"
+#include "render/lens.h"
+#include "render/render_target.h"
+#include "render/shaders.h"
+#include "render/srgb.h"
+
+namespace bosquet::render {
+namespace {
+
+constexpr int kCascades = 3;
+constexpr int kShadowSize = 2048, kFineShadowSize = 4096;
+constexpr int kLargestPicture = 32768;
+constexpr int kTileLimit = 4096;
+
+/// Exposure puts a surface of 0.18 / kBrightness that lies open to the sky at the middle of the tone curve: plants
+/// reflect about a tenth.
+constexpr float kBrightness = 1.35f;
+
+/// Lottes 2016, "Advanced techniques and optimization of HDR color pipelines": contrast, shoulder, and the curve through
+/// (middle grey, middle out) and (brightest, 1).
+Vec4 tone_curve() {
+  constexpr float contrast = 1.22f, shoulder = 0.975f, grey = 0.18f, grey_out = 0.20f, brightest = 9.0f;
+  const float grey_a = std::pow(grey, contrast), bright_a = std::pow(brightest, contrast);
+  const float grey_ad = std::pow(grey, contrast * shoulder), bright_ad = std::pow(brightest, contrast * shoulder);
+  const float b = (-grey_a + bright_a * grey_out) / ((bright_ad - grey_ad) * grey_out);
+  const float c = (bright_ad * grey_a - bright_a * grey_ad * grey_out) / ((bright_ad - grey_ad) * grey_out);
+  return {contrast, shoulder, b, c};
+}
+
+/// Which parts of the scene a pass draws.
+struct Pass {
+  bool mirrored = false;
+  float water_level = 0;
+};
+
+Box3 relative(const Box3& box, const Vec3& eye) { return {box.low - eye, box.high - eye}; }
+
+Error check(const View& view) {
+  const auto range = [](const char* what, int found, int low, int high) {
+    return std::string("picture: ") + what + " is " + std::to_string(found) + ", allowed are " + std::to_string(low) +
+           " to " + std::to_string(high);
+  };
+  if (view.width < 1 || view.width > kLargestPicture) return {range("width", view.width, 1, kLargestPicture)};
+  if (view.height < 1 || view.height > kLargestPicture) return {range("height", view.height, 1, kLargestPicture)};
+  if (view.samples < 1 || view.samples > 16) return {range("samples", view.samples, 1, 16)};
+  if (view.supersample < 1 || view.supersample > 4) return {range("supersample", view.supersample, 1, 4)};
+  const float fov = view.camera.vertical_fov_deg;
+  if (!(view.orthographic_height_m > 0) && !(fov >= 1 && fov <= 170))
+    return {"camera \"" + view.camera.name + "\": vertical field of view is " + std::to_string(fov) +
+            " degrees, allowed are 1 to 170"};
+  return {};
+}
+
+}  // namespace
+
+struct Renderer::State {
+  Programs programs;
+  GpuModel model;
+  DrawFacts facts;
+  int tile_limit = kTileLimit;
+  GLint most_samples = 1, largest_target = 4096;
+
+  TileTarget tile;
+  MirrorTarget mirror;
+  ShadowTarget shadow;
+  GlBuffer frame;
+  GlVertexArray nothing;  ///< the sky's triangle has no vertex data
+  GlTexture sky;
+
+  // The last atmosphere and what it was made for.
+  Atmosphere air;
+  Vec4 air_key{-1.0f};
+
+  Result<void> draw(const View& view, const std::function<void(int x, int y, int w, int h)>& take_tile);
+
+ private:
+  FrameBlock light_block(const View& view, const ViewVolume& volume);
+  void use_atmosphere(const scene::Sun& sun, float turbidity);
+  void draw_shadows(const std::vector<Cascade>& cascades);
+  void draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn);
+  void draw_parts(const Program& program, Shader shader, const std::vector<const Drawable*>& parts, const Vec3& eye);
+  void set_frame(const FrameBlock& block);
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::create() {
+  GLint major = 0, minor = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  if (major < 3 || (major == 3 && minor < 3))
+    return cannot_finish("pictures need OpenGL 3.3, this context has " +
+                         (major ? std::to_string(major) + "." + std::to_string(minor) : std::string("none")));
+  auto state = std::make_unique<State>();
+  Result<Programs> programs = Programs::make();
+  if (!programs) return programs.error();
+  state->programs = std::move(*programs);
+  GLint largest_store = 0, viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_SAMPLES, &state->most_samples);
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest_store);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &state->largest_target);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  state->largest_target = std::min({state->largest_target, largest_store, viewport[0], viewport[1]});
+  state->frame = GlBuffer::make();
+  state->nothing = GlVertexArray::make();
+  Result<GpuModel> empty = GpuModel::make({});
+  if (!empty) return empty.error();
+  state->model = std::move(*empty);
+  return Renderer(std::move(state));
+}
+
+Result<void> Renderer::upload(const scene::Model& model) {
+  // What is there goes first: there may not be memory for both.
+  state_->model = GpuModel();
+  Result<GpuModel> made = GpuModel::make(model);
+  if (!made) return made.error();
+  state_->model = std::move(*made);
+  return {};
+}
+
+void Renderer::set_tile_limit(int pixels) { state_->tile_limit = std::max(16, pixels); }
+const DrawFacts& Renderer::facts() const { return state_->facts; }
+
+// ---- one picture --------------------------------------------------------------------------------------------------
+
+Result<Image> Renderer::draw(const View& view) {
+  if (Error problem = check(view); !problem.message.empty()) return problem;
+  View large = view;
+  const int n = view.supersample;
+  large.width *= n, large.height *= n;
+  Image picture(view.width, view.height, 4);
+  std::vector<std::uint8_t> pixels;
+  const auto take = [&](int x, int y, int w, int h) {
+    pixels.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    // Rows come from the bottom up; n x n pixels are averaged in linear light.
+    parallel_for(static_cast<std::size_t>(h / n), [&](std::size_t row) {
+      const int below = static_cast<int>(row) * n;
+      const int to_y = (large.height - y - below) / n - 1;
+      const float share = 1.0f / static_cast<float>(n * n);
+      for (int column = 0; column < w / n; ++column) {
+        std::uint8_t* out = picture.at(x / n + column, to_y);
+        if (n == 1) {
+          const std::uint8_t* in =
+              pixels.data() + 4 * (static_cast<std::size_t>(below) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column));
+          std::copy(in, in + 4, out);
+          continue;
+        }
+        Vec4 sum(0.0f);
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) {
+            const std::uint8_t* in = pixels.data() + 4 * (static_cast<std::size_t>(below + j) * static_cast<std::size_t>(w) +
+                                                          static_cast<std::size_t>(column * n + i));
+            sum += Vec4(linear_of_srgb(in[0]), linear_of_srgb(in[1]), linear_of_srgb(in[2]), static_cast<float>(in[3]));
+          }
+        for (int c = 0; c < 3; ++c) out[c] = srgb_of_linear(sum[c] * share);
+        out[3] = static_cast<std::uint8_t>(sum.a * share + 0.5f);
+      }
+    });
+  };
+  if (Result<void> drawn = state_->draw(large, take); !drawn) return drawn.error();
+  return picture;
+}
+
+Result<void> Renderer::draw_into(unsigned framebuffer, const View& view) {
+  if (Error problem = check(view); !problem.message.empty()) return problem;
+  return state_->draw(view, [&](int x, int y, int w, int h) {
+    // Without conversion: the bytes are sRGB already.
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBlitFramebuffer(0, 0, w, h, x, y, x + w, y + h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  });
+}
+
+/// Draws the picture tile by tile; take_tile finds each one bound for reading, its lower left corner at (x, y) of the
+/// picture counted from its lower left.
+Result<void> Renderer::State::draw(const View& view, const std::function<void(int x, int y, int w, int h)>& take_tile) {
+  facts = {};
+  facts.samples = std::min<int>(view.samples, most_samples);
+  const bool natural = view.shading == Shading::natural;
+  const ViewVolume volume = make_view_volume(view, model.box);
+  FrameBlock block = light_block(view, volume);
+
+  // Shadows and mirror are the same light for all tiles, the mirror is drawn with each.
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (natural && block.cascade_far.w > 0) {
+    const int size = view.supersample > 1 || view.width > 2400 ? kFineShadowSize : kShadowSize;
+    if (!shadow.fit(std::min<int>(size, largest_target), kCascades))
+      return cannot_finish("the graphics driver refuses shadow maps of " + std::to_string(size) + " x " +
+                           std::to_string(size) + " texels");
+    const std::vector<Cascade> cascades =
+        fit_cascades(volume, model.box, Vec3(block.to_sun), kCascades, shadow.size());
+    for (int c = 0; c < kCascades; ++c) {
+      const Cascade& cascade = cascades[static_cast<std::size_t>(c)];
+      Mat4 from_eye(1.0f);
+      from_eye[3] = Vec4(volume.eye, 1.0f);
+      block.relative_to_shadow[c] = cascade.world_to_clip * from_eye;
+      block.cascade_far[c] = cascade.far_depth;
+      block.cascade_texel[c] = cascade.texel_m;
+      block.cascade_depth[c] = cascade.depth_range_m;
+    }
+    draw_shadows(cascades);
+  }
+
+  const int supersample = std::max(1, view.supersample);
+  const int limit = std::max(supersample, std::min<int>(tile_limit, largest_target) / supersample * supersample);
+  const int tile_width = std::min(limit, view.width), tile_height = std::min(limit, view.height);
+  if (!tile.fit(tile_width, tile_height, facts.samples))
+    return cannot_finish("the graphics driver refuses a picture of " + std::to_string(tile_width) + " x " +
+                         std::to_string(tile_height) + " pixels with " + std::to_string(facts.samples) + " samples");
+
+  for (int y = 0; y < view.height; y += tile_height)
+    for (int x = 0; x < view.width; x += tile_width) {
+      const int w = std::min(tile_width, view.width - x), h = std::min(tile_height, view.height - y);
+      const Vec2 size(view.width, view.height);
+      const ClipWindow window{Vec2(x, y) / size * 2.0f - 1.0f, Vec2(x + w, y + h) / size * 2.0f - 1.0f};
+      const Rays seen = rays(volume, window);
+      block.relative_to_clip = relative_to_clip(volume, window);
+      block.ray_right = Vec4(seen.right, 0), block.ray_up = Vec4(seen.up, 0), block.ray_forward = Vec4(seen.forward, 0);
+      block.view_point = Vec4(seen.origin, volume.orthographic ? 1.0f : 0.0f);
+      block.target = Vec4(w, h, 0, 0);
+      block.clip = Vec4(0, 0, 0, 1);
+      block.water.z = 0;
+
+      // The scene upside down for the water, when water can be seen.
+      const Overhead& over = model.overhead;
+      bool water_seen = false;
+      for (const Drawable& d : model.drawables)
+        water_seen |= model.materials[d.material].shader == Shader::water &&
+                      may_be_seen(block.relative_to_clip, relative(d.box, volume.eye));
+      if (natural && water_seen && over.water_level_m && volume.eye.y > *over.water_level_m && !volume.orthographic) {
+        const float lift = 2 * (*over.water_level_m - volume.eye.y);
+        FrameBlock flipped = block;
+        Mat4 mirror_matrix(1.0f);
+        mirror_matrix[1][1] = -1;
+        mirror_matrix[3][1] = lift;
+        flipped.relative_to_clip = block.relative_to_clip * mirror_matrix;
+        for (Vec4* axis : {&flipped.ray_right, &flipped.ray_up, &flipped.ray_forward, &flipped.forward}) axis->y *= -1;
+        flipped.view_point = Vec4(0, lift, 0, 0);
+        flipped.forward.w = 1;
+        flipped.air.w = 0;
+        flipped.shading.y = 1;
+        flipped.clip = Vec4(0, 1, 0, volume.eye.y - *over.water_level_m);
+        const int mirror_w = std::max(1, (w + 1) / 2), mirror_h = std::max(1, (h + 1) / 2);
+        flipped.target = Vec4(mirror_w, mirror_h, 0, 0);
+        if (!mirror.fit(mirror_w, mirror_h)) return cannot_finish("the graphics driver refuses a mirror picture");
+        glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer());
+        glViewport(0, 0, mirror_w, mirror_h);
+        glClearColor(0, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        draw_scene(flipped, volume, {true, *over.water_level_m}, true);
+        block.water.z = 1;
+      }
+
+      glBindFramebuffer(GL_FRAMEBUFFER, tile.drawn());
+      glViewport(0, 0, w, h);
+      glEnable(GL_FRAMEBUFFER_SRGB);
+      const bool sky_drawn = view.sky && natural;
+      const Vec3 back = view.shading == Shading::silhouette ? Vec3(1.0f) : view.background;
+      glClearColor(back.r, back.g, back.b, view.sky || view.shading == Shading::silhouette ? 1.0f : 0.0f);
+      glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+      if (facts.samples > 1) glEnable(GL_MULTISAMPLE);
+      draw_scene(block, volume, {}, sky_drawn);
+      glDisable(GL_FRAMEBUFFER_SRGB);
+      tile.resolve(w, h);
+      glDisable(GL_FRAMEBUFFER_SRGB);
+      take_tile(x, y, w, h);
+      ++facts.tiles;
+    }
+
+  glUseProgram(0);
+  glBindVertexArray(0);
+  glActiveTexture(GL_TEXTURE0);
+  if (const GLenum problem = glGetError(); problem == GL_OUT_OF_MEMORY)
+    return cannot_finish("the graphics driver ran out of memory while drawing");
+  return {};
+}
+
+// ---- light --------------------------------------------------------------------------------------------------------
+
+void Renderer::State::use_atmosphere(const scene::Sun& sun, float turbidity) {
+  const Vec4 key(sun.azimuth_deg, sun.elevation_deg, turbidity, luminance(model.overhead.ground_albedo));
+  if (sky && key == air_key) return;
+  air_key = key;
+  air = make_atmosphere(sun, turbidity, model.overhead.ground_albedo);
+  sky = GlTexture::make();
+  glBindTexture(GL_TEXTURE_2D, sky.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, Atmosphere::kColumns, Atmosphere::kRows, 0, GL_RGB, GL_FLOAT,
+               air.radiance.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// All of the block that is the same for every tile and pass.
+FrameBlock Renderer::State::light_block(const View& view, const ViewVolume& volume) {
+  const scene::Sun sun = view.sun.value_or(model.sun);
+  use_atmosphere(sun, view.look.turbidity);
+  const Vec3 to_sun = air.to_sun;
+
+  // Level ground and what faces the sun share in setting the exposure, so that a low sun does not bleach what it meets.
+  const float falling = luminance(air.sun_irradiance) * std::max(to_sun.y, 0.5f) + luminance(air.sky_irradiance);
+  const float exposure = kBrightness * kPi / std::max(falling, 1e-4f) * std::exp2(view.look.exposure_ev);
+
+  FrameBlock block{};
+  block.cascade_far.w = to_sun.y > 0.02f && !model.drawables.empty() ? static_cast<float>(kCascades) : 0.0f;
+  block.eye = Vec4(volume.eye, 1);
+  block.forward = Vec4(volume.forward, 0);
+  block.to_sun = Vec4(to_sun, exposure);
+  block.sun_light = Vec4(air.sun_irradiance * exposure, 0);
+  block.sky_light = Vec4(air.sky_irradiance * exposure, 0);
+  for (std::size_t i = 0; i < 9; ++i) block.ambient[i] = Vec4(air.ambient[i] * exposure, 0);
+  block.air = Vec4(1 / view.look.haze_distance_m, view.look.clouds, view.look.ripples, 1);
+  block.tone = tone_curve();
+  const Overhead& over = model.overhead;
+  block.over_area = Vec4(over.low, 1.0f / over.size());
+  block.over_height = Vec4(over.base, 1 / over.scale, over.land_height, view.look.surroundings ? 1 : 0);
+  block.land_albedo = Vec4(over.ground_albedo, 1);
+  block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_level_m ? 1 : 0, 0, 0);
+  block.shading = Vec4(static_cast<float>(view.shading), static_cast<float>(facts.samples), 0, 0);
+  return block;
+}
+
+void Renderer::State::draw_shadows(const std::vector<Cascade>& cascades) {
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 2.0f);
+  glDisable(GL_CULL_FACE);
+  for (std::size_t c = 0; c < cascades.size(); ++c) {
+    shadow.bind(static_cast<int>(c));
+    glViewport(0, 0, shadow.size(), shadow.size());
+    glClear(GL_DEPTH_BUFFER_BIT);
+    const Mat4& to_clip = cascades[c].world_to_clip;
+    for (const bool leaves : {false, true}) {
+      const Program& program = leaves ? programs.shadow_leaf : programs.shadow_solid;
+      glUseProgram(program.name());
+      glUniformMatrix4fv(program.uniform("to_map"), 1, GL_FALSE, &to_clip[0][0]);
+      std::vector<const Drawable*> parts;
+      for (const Drawable& d : model.drawables) {
+        const GpuMaterial& m = model.materials[d.material];
+        if (m.shader == Shader::water || (m.shader == Shader::leaf && m.cutoff > 0) != leaves) continue;
+        if (may_be_seen(to_clip, d.box, true)) parts.push_back(&d);
+      }
+      std::sort(parts.begin(), parts.end(), [](const Drawable* a, const Drawable* b) {
+        return std::pair(a->material, a) < std::pair(b->material, b);
+      });
+      draw_parts(program, leaves ? Shader::leaf : Shader::solid, parts, Vec3(0.0f));
+    }
+  }
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+// ---- drawing ------------------------------------------------------------------------------------------------------
+
+void Renderer::State::set_frame(const FrameBlock& block) {
+  glBindBuffer(GL_UNIFORM_BUFFER, frame.name());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
+}
+
+/// Draws parts with a program in use; materials and textures change only where they differ from the part before.
+void Renderer::State::draw_parts(const Program& program, Shader shader, const std::vector<const Drawable*>& parts,
+                                 const Vec3& eye) {
+  const GLint offset = program.uniform("offset"), base_factor = program.uniform("base_factor");
+  const GLint material_at = program.uniform("material"), maps = program.uniform("maps");
+  std::size_t current = static_cast<std::size_t>(-1);
+  for (const Drawable* d : parts) {
+    if (d->material != current) {
+      current = d->material;
+      const GpuMaterial& m = model.materials[current];
+      glActiveTexture(GL_TEXTURE0 + kUnitColour);
+      glBindTexture(GL_TEXTURE_2D, m.base_colour);
+      glActiveTexture(GL_TEXTURE0 + kUnitNormal);
+      glBindTexture(GL_TEXTURE_2D, m.normal);
+      if (base_factor >= 0) glUniform4fv(base_factor, 1, &m.base_factor[0]);
+      // Without a texture only the factor's alpha is left to cut by.
+      const float cutoff = m.base_colour ? m.cutoff : 0.0f;
+      if (material_at >= 0)
+        glUniform4f(material_at, m.roughness, cutoff, m.translucency, m.double_sided ? 1.0f : 0.0f);
+      if (maps >= 0) glUniform2f(maps, m.base_colour ? 1.0f : 0.0f, m.normal ? 1.0f : 0.0f);
+    }
+    const GpuMaterial& m = model.materials[current];
+    if (shader != Shader::leaf && shader != Shader::water && !m.double_sided)
+      glEnable(GL_CULL_FACE);
+    else
+      glDisable(GL_CULL_FACE);
+    const GpuMesh& mesh = model.meshes[d->mesh];
+    const Vec3 from_eye = d->translation - eye;
+    glUniform3fv(offset, 1, &from_eye[0]);
+    glBindVertexArray(mesh.array.name());
+    glDrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+    facts.triangles_sent += static_cast<std::size_t>(mesh.count) / 3;
+    ++facts.draws;
+  }
+}
+
+void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn) {
+  set_frame(block);
+  const std::pair<GLint, std::pair<GLenum, GLuint>> bound[] = {{kUnitShadow, {GL_TEXTURE_2D_ARRAY, shadow.texture()}},
+                                                               {kUnitSky, {GL_TEXTURE_2D, sky.name()}},
+                                                               {kUnitCover, {GL_TEXTURE_2D, model.cover.name()}},
+                                                               {kUnitGround, {GL_TEXTURE_2D, model.ground.name()}},
+                                                               {kUnitMirror, {GL_TEXTURE_2D, block.water.z > 0 ? mirror.texture() : 0}}};
+  for (const auto& [unit, texture] : bound) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(texture.first, texture.second);
+  }
+  glFrontFace(pass.mirrored ? GL_CW : GL_CCW);
+  if (pass.mirrored) glEnable(GL_CLIP_DISTANCE0);
+
+  // What can be seen, by shader, then material, then from near to far.
+  std::array<std::vector<std::pair<float, const Drawable*>>, 4> seen;
+  for (const Drawable& d : model.drawables) {
+    if (pass.mirrored && d.box.high.y < pass.water_level) continue;
+    if (!may_be_seen(block.relative_to_clip, relative(d.box, volume.eye))) continue;
+    const float depth = glm::dot(d.box.centre() - volume.eye, volume.forward);
+    seen[static_cast<std::size_t>(model.materials[d.material].shader)].emplace_back(depth, &d);
+  }
+  const auto sorted = [&](Shader shader) {
+    auto& list = seen[static_cast<std::size_t>(shader)];
+    std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) {
+      return std::tuple(a.second->material, a.first, a.second) < std::tuple(b.second->material, b.first, b.second);
+    });
+    std::vector<const Drawable*> parts;
+    for (const auto& [depth, d] : list) {
+      parts.push_back(d);
+      if (!pass.mirrored) facts.triangles_viewed += static_cast<std::size_t>(model.meshes[d->mesh].count) / 3;
+    }
+    return parts;
+  };
+  const auto draw_all = [&](const Program& program, Shader shader) {
+    glUseProgram(program.name());
+    draw_parts(program, shader, sorted(shader), volume.eye);
+  };
+
+  draw_all(programs.solid, Shader::solid);
+  const bool coverage = !pass.mirrored && facts.samples > 1;
+  if (coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE), glEnable(GL_SAMPLE_ALPHA_TO_ONE);
+  draw_all(programs.leaf, Shader::leaf);
+  if (coverage) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE), glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+  draw_all(programs.ground, Shader::ground);
+  glDisable(GL_CULL_FACE);
+  if (sky_drawn) {
+    glUseProgram(programs.sky.name());
+    glBindVertexArray(nothing.name());
+    glDepthMask(GL_FALSE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+    ++facts.draws;
+  }
+  // Water lets what lies under it shine through, and mirrors nothing of itself.
+  if (!pass.mirrored) {
+    const bool through = block.shading.x == 0.0f;
+    if (through) {
+      glEnable(GL_BLEND);
+      glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+      glDepthMask(GL_FALSE);
+    }
+    draw_all(programs.water, Shader::water);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+  }
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
+}
+
+}  // namespace bosquet::render

@@ -1,0 +1,541 @@
+#include "render/shaders.h"
+
+#include <array>
+
+namespace bosquet::render {
+namespace {
+
+// ---- shared by all ------------------------------------------------------------------------------------------------
+
+const char* const kFrame = R"(#version 330 core
+layout(std140) uniform Frame {
+  mat4 relative_to_clip;
+  mat4 relative_to_shadow[3];
+  vec4 cascade_far, cascade_texel, cascade_depth;
+  vec4 eye, view_point, forward;
+  vec4 ray_right, ray_up, ray_forward;
+  vec4 to_sun, sun_light, sky_light;
+  vec4 ambient[9];
+  vec4 air, tone;
+  vec4 over_area, over_height, land_albedo;
+  vec4 water, target, shading, clip;
+};
+)";
+
+const char* const kNoise = R"(
+// Hash of a lattice point to 0..1 by integer mixing, the same on every driver.
+float hash(ivec2 p) {
+  uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return float((h ^ (h >> 15)) & 0xffffffu) / 16777215.0;
+}
+float noise(vec2 p) {
+  vec2 cell = floor(p), f = p - cell;
+  ivec2 i = ivec2(cell);
+  f = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  return mix(mix(hash(i), hash(i + ivec2(1, 0)), f.x), mix(hash(i + ivec2(0, 1)), hash(i + ivec2(1, 1)), f.x), f.y);
+}
+float layered_noise(vec2 p) {
+  float sum = 0.0, weight = 0.5;
+  for (int i = 0; i < 5; ++i) {
+    sum += weight * noise(p);
+    p = mat2(1.6, 1.2, -1.2, 1.6) * p + 17.3;
+    weight *= 0.5;
+  }
+  return sum / 0.96875;
+}
+)";
+
+const char* const kLight = R"(
+uniform sampler2DArrayShadow shadow_map;
+uniform sampler2D sky_map, cover_map;
+const float pi = 3.14159265;
+
+// Irradiance from all around but the sun itself (Ramamoorthi and Hanrahan 2001).
+vec3 ambient_light(vec3 n) {
+  vec3 e = ambient[0].rgb * 0.282095 + ambient[1].rgb * (0.488603 * n.y) + ambient[2].rgb * (0.488603 * n.z) +
+           ambient[3].rgb * (0.488603 * n.x) + ambient[4].rgb * (1.092548 * n.x * n.y) +
+           ambient[5].rgb * (1.092548 * n.y * n.z) + ambient[6].rgb * (0.315392 * (3.0 * n.z * n.z - 1.0)) +
+           ambient[7].rgb * (1.092548 * n.x * n.z) + ambient[8].rgb * (0.546274 * (n.x * n.x - n.y * n.y));
+  return max(e, vec3(0.0));
+}
+
+// Radiance of the clear sky; the table of render/atmosphere.h.
+vec3 clear_sky(vec3 direction) {
+  float elevation = asin(clamp(direction.y, 0.0, 1.0));
+  float both = length(direction.xz) * length(to_sun.xz);
+  float azimuth = both > 1e-6 ? acos(clamp(dot(direction.xz, to_sun.xz) / both, -1.0, 1.0)) : 0.0;
+  return texture(sky_map, vec2(sqrt(azimuth / pi), sqrt(elevation * 2.0 / pi))).rgb * to_sun.w;
+}
+
+// Colour of distant air in a direction.
+vec3 haze_colour(vec3 direction) {
+  return clear_sky(normalize(vec3(direction.x, max(direction.y, 0.03) , direction.z)));
+}
+vec3 through_air(vec3 colour, vec3 direction, float distance_m) {
+  return mix(haze_colour(direction), colour, exp(-distance_m * air.x));
+}
+
+// Share of the sky that a point sees past what stands overhead (Cantelli's inequality on blurred heights).
+float higher_share(vec2 moments, float y) {
+  float d = moments.x - y;
+  if (d <= 0.0) return 0.0;
+  float least = 0.25 * over_height.y;
+  float variance = max(moments.y - moments.x * moments.x, least * least);
+  return d * d / (variance + d * d);
+}
+float open_sky(vec3 world) {
+  vec4 moments = texture(cover_map, (world.xz - over_area.xy) * over_area.zw);
+  float y = (world.y + 0.15 - over_height.x) * over_height.y;
+  return 1.0 - 0.5 * (higher_share(moments.xy, y) + higher_share(moments.zw, y));
+}
+
+// Sixteen points evenly over a disc (Vogel's spiral), the same for every pixel: no grain.
+const vec2 disc[16] = vec2[16](
+  vec2(0.177, 0.0), vec2(-0.226, 0.207), vec2(0.035, -0.394), vec2(0.285, 0.371),
+  vec2(-0.522, -0.092), vec2(0.494, -0.314), vec2(-0.165, 0.615), vec2(-0.315, -0.608),
+  vec2(0.685, 0.250), vec2(-0.712, 0.294), vec2(0.343, -0.733), vec2(0.253, 0.809),
+  vec2(-0.764, -0.443), vec2(0.897, -0.197), vec2(-0.548, 0.778), vec2(-0.125, -0.976));
+
+float lit_by_cascade(int c, vec3 relative, vec3 normal, float widen) {
+  float texel = cascade_texel[c];
+  float slope = 1.0 - abs(dot(normal, to_sun.xyz));
+  vec3 lifted = relative + normal * (texel * (0.6 + 1.4 * slope)) + to_sun.xyz * (texel * 1.0 + 0.01);
+  vec3 p = (relative_to_shadow[c] * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
+  if (any(greaterThan(abs(p.xy - 0.5), vec2(0.5)))) return 1.0;
+  // A penumbra of some 10 cm, at least a texel and a half so that the map's steps do not show.
+  float size = 1.0 / float(textureSize(shadow_map, 0).x);
+  vec2 radius = vec2(size * clamp(widen / texel, 1.5, 5.0));
+  float lit = 0.0;
+  for (int i = 0; i < 16; ++i) lit += texture(shadow_map, vec4(p.xy + disc[i] * radius, float(c), p.z));
+  return lit * 0.0625;
+}
+
+// Share of the sun that a point sees. `normal` faces the sun's side.
+float sunlit(vec3 relative, vec3 normal, float widen) {
+  int count = int(cascade_far.w);
+  if (count == 0) return 1.0;
+  float depth = dot(relative, forward.xyz);
+  int c = 0;
+  while (c + 1 < count && depth > cascade_far[c]) ++c;
+  float lit = lit_by_cascade(c, relative, normal, widen);
+  // The last tenth of a cascade fades into the next.
+  if (c + 1 < count) {
+    float begin = c > 0 ? cascade_far[c - 1] : 0.0;
+    float fade = smoothstep(0.9, 1.0, (depth - begin) / (cascade_far[c] - begin));
+    if (fade > 0.0) lit = mix(lit, lit_by_cascade(c + 1, relative, normal, widen), fade);
+  }
+  return lit;
+}
+
+// Tone curve of Lottes 2016 on channels mixed a little, so that bright colours pale as film does.
+vec3 tone_mapped(vec3 c) {
+  const float mixed = 0.06, apart = 0.045;
+  c = mix(c, vec3(c.r + c.g + c.b) / 3.0, mixed * 1.5);
+  vec3 z = pow(max(c, vec3(0.0)), vec3(tone.x));
+  c = z / (pow(z, vec3(tone.y)) * tone.z + tone.w);
+  c = mix(c, vec3(c.r + c.g + c.b) / 3.0, -apart * 1.5);
+  return clamp(c, 0.0, 1.0);
+}
+vec3 encoded(vec3 light) { return air.w > 0.5 ? tone_mapped(light) : min(light, vec3(60.0)); }
+)";
+
+// ---- geometry -----------------------------------------------------------------------------------------------------
+
+const char* const kMeshVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 colour;
+uniform vec3 offset;  // of the node, relative to the eye
+out vec3 v_relative, v_normal, v_colour;
+out vec2 v_uv;
+void main() {
+  v_relative = position + offset;
+  v_normal = normal.xyz;
+  v_uv = uv;
+  v_colour = colour.rgb;
+  gl_Position = relative_to_clip * vec4(v_relative, 1.0);
+  gl_ClipDistance[0] = dot(clip, vec4(v_relative, 1.0));
+}
+)";
+
+const char* const kMeshFragment = R"(
+in vec3 v_relative, v_normal, v_colour;
+in vec2 v_uv;
+uniform sampler2D colour_map, normal_map;
+uniform vec4 base_factor;
+uniform vec4 material;  // roughness, alpha cutoff, translucency, 1 if double sided
+uniform vec2 maps;      // 1 if there is a base colour, a normal map
+out vec4 out_colour;
+
+// The surface's normal bent by the normal map; the tangent frame comes from how position and uv change over the
+// screen (Mikkelsen 2010), so meshes need no tangents.
+vec3 bent_normal(vec3 n, vec2 uv) {
+  if (maps.y < 0.5) return n;
+  vec3 px = dFdx(v_relative), py = dFdy(v_relative);
+  vec2 tx = dFdx(uv), ty = dFdy(uv);
+  vec3 across_y = cross(py, n), across_x = cross(n, px);
+  vec3 t = across_y * tx.x + across_x * ty.x;
+  // uv grows downward in the image, the map's y upward.
+  vec3 b = -(across_y * tx.y + across_x * ty.y);
+  float scale = max(dot(t, t), dot(b, b));
+  if (scale < 1e-20) return n;
+  vec3 m = texture(normal_map, uv).xyz * 2.0 - 1.0;
+  return normalize(mat3(t * inversesqrt(scale), b * inversesqrt(scale), n) * m);
+}
+
+// Specular light of the sun (GGX, Smith as Hammon 2017); F0 of plants and stone.
+float gloss(vec3 n, vec3 v, float roughness) {
+  vec3 h = normalize(v + to_sun.xyz);
+  float nl = max(dot(n, to_sun.xyz), 0.0), nv = max(abs(dot(n, v)), 0.05), nh = max(dot(n, h), 0.0);
+  float a = roughness * roughness, a2 = a * a;
+  float d = nh * nh * (a2 - 1.0) + 1.0;
+  float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(v, h), 0.0), 5.0);
+  return fresnel * a2 / (pi * d * d) * nl / (2.0 * mix(2.0 * nl * nv, nl + nv, a) + 1e-4);
+}
+)";
+
+const char* const kSolidMain = R"(
+void main() {
+  vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
+  vec3 albedo = texel.rgb * base_factor.rgb * v_colour;
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
+  vec3 to_eye = view_point.xyz - v_relative;
+  float distance_m = length(to_eye);
+  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
+  vec3 surface = normalize(v_normal);
+  if (material.w > 0.5 && !gl_FrontFacing) surface = -surface;
+  vec3 n = bent_normal(surface, v_uv);
+  float nl = dot(n, to_sun.xyz);
+  float lit = dot(surface, to_sun.xyz) > 0.0 && nl > 0.0 ? sunlit(v_relative, surface, 0.10) : 0.0;
+  float open = mix(0.36, 1.0, open_sky(v_relative + eye.xyz));
+  vec3 light = albedo / pi * (sun_light.rgb * (lit * max(nl, 0.0)) + ambient_light(n) * open);
+  light += sun_light.rgb * (lit * gloss(n, v, material.x));
+  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
+}
+)";
+
+const char* const kLeafMain = R"(
+// Alpha sharpened around the cutoff to an edge one pixel wide, rounded to what coverage can hold.
+float covered(float alpha) {
+  return clamp((alpha - material.y) / max(fwidth(alpha), 1e-3) + 0.5, 0.0, 1.0);
+}
+void main() {
+  vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
+  float cover = material.y > 0.0 ? covered(texel.a * base_factor.a) : 1.0;
+  float steps = max(shading.y, 1.0);
+  // The hardware rounds coverage up; taking half a step off rounds it to the nearest.
+  float alpha = cover >= 1.0 ? 1.0 : cover - 0.5 / steps;
+  if (alpha <= 0.0) discard;
+  vec3 albedo = texel.rgb * base_factor.rgb * v_colour;
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, alpha); return; }
+  if (shading.x > 0.5) { out_colour = vec4(albedo, alpha); return; }
+  vec3 to_eye = view_point.xyz - v_relative;
+  float distance_m = length(to_eye);
+  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
+  vec3 surface = normalize(v_normal);
+  if (!gl_FrontFacing) surface = -surface;
+  vec3 n = bent_normal(surface, v_uv);
+  float nl = dot(n, to_sun.xyz);
+  vec3 sunward = dot(surface, to_sun.xyz) > 0.0 ? surface : -surface;
+  float lit = sunlit(v_relative, sunward, 0.12);
+  float open = mix(0.34, 1.0, open_sky(v_relative + eye.xyz));
+  // Light that comes through a leaf is yellower: chlorophyll lets green and some red pass.
+  vec3 through = pow(albedo, vec3(0.85)) * vec3(1.10, 1.15, 0.55) * material.z;
+  vec3 kept = albedo * (1.0 - 0.35 * material.z);
+  vec3 light = sun_light.rgb * lit * (kept * max(nl, 0.0) + through * max(-nl, 0.0));
+  light += open * (kept * ambient_light(n) + 0.6 * through * ambient_light(-n));
+  light /= pi;
+  // A wax shine, gone where leaves become too small to be seen one by one.
+  if (nl > 0.0) light += sun_light.rgb * (lit * 0.6 * gloss(n, v, max(material.x, 0.45)) * exp(-distance_m / 40.0));
+  out_colour = vec4(encoded(through_air(light, -v, distance_m)), alpha);
+}
+)";
+
+const char* const kGroundMain = R"(
+void main() {
+  vec3 world = v_relative + eye.xyz;
+  vec3 texel = vec3(1.0);
+  if (maps.x > 0.5) {
+    // The texture at two scales, turned against each other, hides that it repeats.
+    vec3 fine = texture(colour_map, v_uv).rgb;
+    vec3 coarse = texture(colour_map, mat2(0.259, 0.143, -0.143, 0.259) * v_uv + 0.37).rgb;
+    texel = mix(fine, coarse, 0.45);
+  }
+  vec3 albedo = texel * base_factor.rgb * v_colour;
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
+  // Ground is never even: drier and lusher patches over many metres.
+  float wide = layered_noise(world.xz / 38.0) - 0.5, near = layered_noise(world.xz / 7.0 + 31.0) - 0.5;
+  albedo *= 1.0 + 0.35 * wide + 0.22 * near;
+  albedo *= mix(vec3(1.10, 1.0, 0.82), vec3(0.92, 1.02, 0.98), clamp(0.5 + 1.6 * wide + 0.6 * near, 0.0, 1.0));
+  // Soaked at the water's edge.
+  float wet = water.y > 0.5 ? 1.0 - smoothstep(0.02, 0.30, world.y - water.x) : 0.0;
+  albedo *= 1.0 - 0.45 * wet;
+  vec3 to_eye = view_point.xyz - v_relative;
+  float distance_m = length(to_eye);
+  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
+  vec3 surface = normalize(v_normal);
+  vec3 n = bent_normal(surface, v_uv);
+  float nl = dot(n, to_sun.xyz);
+  float lit = nl > 0.0 ? sunlit(v_relative, surface, 0.14) : 0.0;
+  float open = mix(0.36, 1.0, open_sky(world));
+  vec3 light = albedo / pi * (sun_light.rgb * (lit * max(nl, 0.0)) + ambient_light(n) * open);
+  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
+}
+)";
+
+const char* const kWaterMain = R"(
+uniform sampler2D ground_map, mirror_map;
+
+// Slope of ripples: waves from a few directions, each left out where it is finer than a pixel.
+vec2 ripple_slope(vec2 p, float pixel_m, out float lost) {
+  const int count = 7;
+  const vec2 heading[count] = vec2[count](vec2(0.94, 0.34), vec2(0.62, 0.78), vec2(0.99, -0.17), vec2(0.21, 0.98),
+                                          vec2(0.80, -0.60), vec2(-0.34, 0.94), vec2(0.5, 0.866));
+  const float wavelength[count] = float[count](3.1, 2.17, 1.43, 0.97, 0.61, 0.43, 0.29);
+  // Gusts: patches of rougher and smoother water.
+  float gust = 0.35 + 1.1 * layered_noise(p / 11.0);
+  vec2 bend = vec2(noise(p / 3.7), noise(p / 3.7 + 57.0)) * 2.6;
+  vec2 slope = vec2(0.0);
+  lost = 0.0;
+  for (int i = 0; i < count; ++i) {
+    float k = 2.0 * pi / wavelength[i];
+    float steep = 0.011 * air.z * gust;
+    float kept = clamp(wavelength[i] / (2.5 * pixel_m) - 0.5, 0.0, 1.0);
+    slope += heading[i] * (steep * kept * cos(k * dot(heading[i], p + bend) + float(i) * 1.7));
+    lost += steep * steep * 0.5 * (1.0 - kept * kept);
+  }
+  return slope;
+}
+
+void main() {
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (shading.x > 0.5) { out_colour = vec4(base_factor.rgb * v_colour, 1.0); return; }
+  vec3 world = v_relative + eye.xyz;
+  vec3 to_eye = view_point.xyz - v_relative;
+  float distance_m = length(to_eye);
+  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
+  vec2 dx = dFdx(v_relative.xz), dy = dFdy(v_relative.xz);
+  float lost;
+  vec2 slope = ripple_slope(world.xz, max(length(dx), length(dy)), lost);
+  vec3 n = normalize(vec3(-slope.x, 1.0, -slope.y));
+  float nv = clamp(dot(n, v), 0.02, 1.0);
+  float fresnel = 0.02 + 0.98 * pow(1.0 - nv, 5.0);
+
+  // What it mirrors: the mirrored picture where there is one, shifted by the ripples, else the sky.
+  vec3 r = reflect(-v, n);
+  r.y = abs(r.y);
+  vec3 mirrored = clear_sky(r);
+  if (water.z > 0.5) {
+    vec2 at = gl_FragCoord.xy / target.xy;
+    // A tilt by s moves the mirror image by about 2 s of the depth of what is mirrored, here some 12 m behind.
+    vec2 side = vec2(dot(slope, normalize(ray_right.xz + 1e-6)), dot(slope, normalize(ray_forward.xz + 1e-6)));
+    float shift = 2.0 * 12.0 / (distance_m + 12.0);
+    vec2 tangent = vec2(length(ray_right.xyz), length(ray_up.xyz));
+    at += vec2(side.x, -side.y) * shift * 0.5 / tangent;
+    mirrored = texture(mirror_map, clamp(at, 0.002, 0.998)).rgb;
+  }
+
+  // Below: light fades with the way through the water, murky green takes its place.
+  float bed = texture(ground_map, (world.xz - over_area.xy) * over_area.zw).r;
+  float depth_m = max(water.x - bed, 0.0);
+  float way = depth_m / max(0.35, sqrt(1.0 - (1.0 - nv * nv) / 1.77)) + depth_m;
+  vec3 passed = exp(-way * vec3(1.35, 0.75, 0.95));
+  float lit = sunlit(v_relative, vec3(0.0, 1.0, 0.0), 0.4);
+  float open = mix(0.4, 1.0, open_sky(world));
+  vec3 murk = vec3(0.020, 0.034, 0.024) * (sky_light.rgb * open + sun_light.rgb * (max(to_sun.y, 0.0) * mix(0.4, 1.0, lit))) / pi;
+
+  // The sun's path on the water, spread by ripples too fine to see.
+  vec3 h = normalize(v + to_sun.xyz);
+  float a2 = 0.0009 + 2.0 * lost;
+  float nh = max(dot(n, h), 0.0), d = nh * nh * (a2 - 1.0) + 1.0;
+  vec3 glint = sun_light.rgb * (lit * min(fresnel * a2 / (pi * d * d) * 0.25 / nv, 3.0));
+
+  float seen = dot(passed, vec3(0.35, 0.45, 0.20)) * (1.0 - fresnel);
+  float alpha = clamp(1.0 - seen, 0.0, 1.0);
+  // Shallow water at the very edge is clear, so that the shore has no hard line.
+  vec3 light = fresnel * mirrored + (1.0 - fresnel) * (vec3(1.0) - passed) * murk + glint;
+  alpha *= smoothstep(0.0, 0.06, depth_m);
+  light = through_air(light / max(1.0 - seen, 0.05), -v, distance_m);
+  out_colour = vec4(encoded(light) * alpha, alpha);
+}
+)";
+
+// ---- sky ----------------------------------------------------------------------------------------------------------
+
+const char* const kSkyVertex = R"(
+out vec2 v_screen;
+void main() {
+  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  v_screen = p;
+  gl_Position = vec4(p, 1.0, 1.0);
+  gl_ClipDistance[0] = 1.0;
+}
+)";
+
+const char* const kSkyFragment = R"(
+in vec2 v_screen;
+out vec4 out_colour;
+
+vec3 sky(vec3 d) {
+  vec3 light = clear_sky(d);
+  // Thin high cloud on a flat layer, whiter toward the sun, thinning out at the horizon.
+  if (air.y > 0.0 && d.y > 0.0) {
+    vec2 p = d.xz / (d.y + 0.12) * 1.3;
+    vec2 drift = vec2(layered_noise(p * 0.9 + 3.0), layered_noise(p * 0.9 + 71.0));
+    float density = layered_noise(p * vec2(0.8, 1.7) + 1.8 * drift);
+    float cover = smoothstep(0.78 - 0.5 * air.y, 1.02 - 0.3 * air.y, density) * smoothstep(0.01, 0.30, d.y) * 0.75;
+    float nu = max(dot(d, to_sun.xyz), 0.0);
+    vec3 cloud = sky_light.rgb * 0.30 + sun_light.rgb * (0.045 + 0.10 * pow(nu, 8.0));
+    light = mix(light, cloud, cover);
+  }
+  // The sun's disc, a little larger than true, with a soft rim and a glow.
+  float nu = dot(d, to_sun.xyz);
+  light += sun_light.rgb * (smoothstep(0.99992, 0.99997, nu) * 40.0 + 0.25 * pow(max(nu, 0.0), 900.0));
+  return light;
+}
+
+void main() {
+  vec3 across = ray_right.xyz * v_screen.x + ray_up.xyz * v_screen.y;
+  vec3 origin = view_point.w > 0.5 ? across : vec3(0.0);
+  vec3 d = normalize(view_point.w > 0.5 ? ray_forward.xyz : ray_forward.xyz + across);
+  vec3 light;
+  // The mirrored pass looks up only; its land would be the river bed.
+  if (d.y < 0.0 && over_height.w > 0.5 && forward.w < 0.5) {
+    float above = origin.y + eye.y - over_height.z;
+    float t = above > 0.0 ? above / -d.y : 0.0;
+    vec3 p = origin + d * t, world = p + eye.xyz;
+    float wide = layered_noise(world.xz / 60.0) - 0.5;
+    float fade = exp(-t / 400.0);
+    vec3 albedo = land_albedo.rgb * (1.0 + 0.3 * wide * fade);
+    float lit = sunlit(p, vec3(0.0, 1.0, 0.0), 0.2);
+    float open = mix(0.36, 1.0, open_sky(world));
+    light = albedo / pi * (sun_light.rgb * (lit * max(to_sun.y, 0.0)) + sky_light.rgb * open);
+    light = through_air(light, d, t);
+  } else {
+    light = sky(d);
+  }
+  out_colour = vec4(encoded(light), 1.0);
+}
+)";
+
+// ---- shadows ------------------------------------------------------------------------------------------------------
+
+const char* const kShadowVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec2 uv;
+uniform vec3 offset;
+uniform mat4 to_map;
+out vec2 v_uv;
+void main() {
+  v_uv = uv;
+  gl_Position = to_map * vec4(position + offset, 1.0);
+  // Casters nearer to the sun than the map begins still cast.
+  gl_Position.z = max(gl_Position.z, -gl_Position.w);
+}
+)";
+
+const char* const kShadowSolid = R"(#version 330 core
+void main() {}
+)";
+
+const char* const kShadowLeaf = R"(#version 330 core
+in vec2 v_uv;
+uniform sampler2D colour_map;
+uniform vec4 base_factor;
+uniform vec4 material;
+void main() {
+  if (texture(colour_map, v_uv).a * base_factor.a < material.y) discard;
+}
+)";
+
+GLuint compile(GLenum kind, const std::string& source, std::string& log) {
+  const GLuint shader = glCreateShader(kind);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint good = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (good) return shader;
+  std::array<char, 2048> buffer{};
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(buffer.size()), nullptr, buffer.data());
+  log = buffer.data();
+  glDeleteShader(shader);
+  return 0;
+}
+
+}  // namespace
+
+Result<Program> Program::make(const std::string& name, const std::string& vertex, const std::string& fragment) {
+  std::string log;
+  const auto fail = [&](const char* what) {
+    return cannot_finish("the graphics driver (" +
+                         std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) + ") does not " + what +
+                         " the shader \"" + name + "\": " + log);
+  };
+  const GLuint v = compile(GL_VERTEX_SHADER, vertex, log);
+  if (!v) return fail("compile");
+  const GLuint f = compile(GL_FRAGMENT_SHADER, fragment, log);
+  if (!f) {
+    glDeleteShader(v);
+    return fail("compile");
+  }
+  Program program;
+  program.name_ = glCreateProgram();
+  glAttachShader(program.name_, v);
+  glAttachShader(program.name_, f);
+  glLinkProgram(program.name_);
+  glDeleteShader(v);
+  glDeleteShader(f);
+  GLint good = 0;
+  glGetProgramiv(program.name_, GL_LINK_STATUS, &good);
+  if (!good) {
+    std::array<char, 2048> buffer{};
+    glGetProgramInfoLog(program.name_, static_cast<GLsizei>(buffer.size()), nullptr, buffer.data());
+    log = buffer.data();
+    return fail("link");
+  }
+
+  // Block and texture units never change.
+  const GLuint block = glGetUniformBlockIndex(program.name_, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(program.name_, block, 0);
+  glUseProgram(program.name_);
+  const std::pair<const char*, GLint> units[] = {
+      {"colour_map", kUnitColour}, {"normal_map", kUnitNormal}, {"shadow_map", kUnitShadow}, {"sky_map", kUnitSky},
+      {"cover_map", kUnitCover},   {"ground_map", kUnitGround}, {"mirror_map", kUnitMirror}};
+  for (const auto& [sampler, unit] : units)
+    if (const GLint at = program.uniform(sampler); at >= 0) glUniform1i(at, unit);
+  glUseProgram(0);
+  return program;
+}
+
+Result<Programs> Programs::make() {
+  const std::string frame = kFrame, shared = frame + kNoise + kLight;
+  const std::string vertex = frame + kMeshVertex, fragment = shared + kMeshFragment;
+  const std::string shadow = std::string("#version 330 core\n") + kShadowVertex;
+  Programs programs;
+  struct Source {
+    Program Programs::*program;
+    const char* name;
+    std::string vertex, fragment;
+  };
+  const Source sources[] = {{&Programs::solid, "solid", vertex, fragment + kSolidMain},
+                            {&Programs::leaf, "leaf", vertex, fragment + kLeafMain},
+                            {&Programs::ground, "ground", vertex, fragment + kGroundMain},
+                            {&Programs::water, "water", vertex, fragment + kWaterMain},
+                            {&Programs::sky, "sky", frame + kSkyVertex, shared + kSkyFragment},
+                            {&Programs::shadow_solid, "shadow", shadow, kShadowSolid},
+                            {&Programs::shadow_leaf, "leaf shadow", shadow, kShadowLeaf}};
+  for (const Source& source : sources) {
+    Result<Program> made = Program::make(source.name, source.vertex, source.fragment);
+    if (!made) return made.error();
+    programs.*source.program = std::move(*made);
+  }
+  return programs;
+}
+
+}  // namespace bosquet::render
