@@ -40,7 +40,8 @@ void describe(P& p, Visitor& visit) {
   visit(Text{"of", "Species of the standing trees"}, p.of);
   visit(Text{"on", "Species of the trees that are planted near them"}, p.on);
   visit(Choice{"kind", kKernelKindNames, "Whether they draw those near or keep them away"}, p.kind);
-  visit(Real{"active_radius_m", "m", 0.1, 1000, "Distance from the trunk at which the effect ends"}, p.active_radius_m);
+  visit(Real{"active_radius_m", "m", 0.1, 1000, "Distance from a trunk's centre at which the effect ends"},
+        p.active_radius_m);
   visit(
       Real{"effect", "", 1, 1000, "How many times likelier, or less likely, planting is at the trunk; 1 is no effect"},
       p.effect);

@@ -5,7 +5,8 @@
 //           the distance to every tree (least_distance_m), the terrain and the species' rules
 // Holds     fields are a function of terrain, rules and the trees standing: after any adding, removing and moving they
 //           equal, bit for bit, fields made anew from those trees
-// Cost      a species' field is made when it is first drawn from; a site of n x n cells takes some 9 n^2 bytes for each
+// Cost      a species' field is made when it is first drawn from; a site of n x n cells takes some 14 n^2 bytes for
+// each
 #pragma once
 
 #include <cstdint>
@@ -68,6 +69,8 @@ class Planting {
     float active_radius_m = 0.0f;
     KernelTable log2_kernel{};
   };
+  bool too_near(const StandingTree& tree, bool trunks_only) const;
+  Refusal refusal_by_ground(Vec2 at) const;
   Stamp stamp(const StandingTree& tree, std::uint32_t on) const;
   const Pair& pair(std::uint32_t of, std::uint32_t on) const { return pairs_[of * species_.size() + on]; }
   std::vector<std::uint8_t> suitability(const PlantingRules& rules) const;
@@ -77,6 +80,9 @@ class Planting {
   std::vector<Pair> pairs_;  // [of * species + on]
   float cell_m_ = 1.0f;
   IVec2 cells_{0};
+  terrain::HeightRange heights_;
+  float steepest_ = 0.0f;                                  // no ground rises more per metre
+  float widest_spacing_m_ = 0.0f, widest_trunk_m_ = 0.0f;  // of the trees ever added
   std::vector<StandingTree> trees_;
   std::unordered_map<std::uint64_t, std::uint32_t> slot_of_;  // key -> place in trees_
   TreeIndex index_;

@@ -11,7 +11,7 @@
 //           u(key, attempt, node) of its own and at each node the child with the smallest -log2(u) / sum is taken,
 //           which happens with probability proportional to the sum. When a part of the site loses its weight only the
 //           draws that fell there change; all others stay
-// Layout    cells in blocks of 4 x 4, so a block's logarithms are one cache line; sums are kept for blocks and above
+// Layout    cells in blocks of 4 x 4, so a kernel touches few cache lines; sums are kept for blocks and above
 // Frame     cell (i, j) spans (i, j) * cell_m to the next, i east, j north; (0, 0) at the site's south-west corner
 // Cost      a kernel: its blocks; a draw: the mask's rim and four numbers a level
 #pragma once
@@ -51,15 +51,16 @@ class ProbabilityField {
   void close(IVec2 cell) { change_cover(cell, 1); }
   void open(IVec2 cell) { change_cover(cell, -1); }
 
-  /// A cell inside the mask, drawn by weight, or nothing when no weight is left there. `sums` is scratch.
-  std::optional<IVec2> draw(const RegionMask& mask, const RandomStream& stream, std::uint64_t attempt,
-                            std::vector<std::uint64_t>& sums) const;
+  /// Sum of the weights of each node of the mask, the whole mask's in front; to be asked again after a change.
+  void sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const;
 
-  /// Sum of the weights inside the mask.
-  std::uint64_t sum(const RegionMask& mask) const;
+  /// A cell inside the mask, drawn by weight, or nothing when no weight is left there.
+  std::optional<IVec2> draw(const RegionMask& mask, std::span<const std::uint64_t> sums, const RandomStream& stream,
+                            std::uint32_t attempt) const;
 
   /// 2^20 where nothing acts.
   std::uint64_t weight(IVec2 cell) const;
+  std::uint8_t suitability(IVec2 cell) const;
 
   IVec2 cells() const { return cells_; }
   float cell_m() const { return cell_m_; }
@@ -83,14 +84,13 @@ class ProbabilityField {
   std::size_t place(IVec2 cell) const;
   std::uint64_t cell_weight(std::size_t place) const;
   std::uint64_t node_sum(int level, int x, int y) const;
-  void sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const;
 
   IVec2 cells_;
   float cell_m_;
   IVec2 blocks_;
   int top_ = 0;
-  std::vector<std::int32_t> log2_;         // in steps of 2^-16
-  std::vector<std::uint16_t> cover_;       // how many trees leave no room
+  std::vector<std::int64_t> log2_;         // in steps of 2^-16
+  std::vector<std::uint32_t> cover_;       // how many trees leave no room
   std::vector<std::uint8_t> suitability_;  // 0 beyond the site
   std::vector<Level> levels_;              // levels_[n] holds level n + 2
 };

@@ -84,11 +84,12 @@ struct Planted {
   std::vector<LeftOut> left_out;
 };
 
-/// Places of the rows along a polyline, jitter not yet applied.
-std::vector<Vec2> row_places(std::span<const Vec2> line, const RowRules& rules);
+/// Places of the rows along a polyline, jitter not yet applied. More than kMostPlaces are an error.
+inline constexpr std::size_t kMostPlaces = 1'000'000;
+Result<std::vector<Vec2>> row_places(std::span<const Vec2> line, const RowRules& rules);
 
-/// Places of a grid inside a region, jitter not yet applied.
-std::vector<Vec2> grid_places(const Region& region, const GridRules& rules);
+/// Places of a grid inside a region, jitter not yet applied. More than kMostPlaces are an error.
+Result<std::vector<Vec2>> grid_places(const Region& region, const GridRules& rules);
 
 /// Plants at given places: tree n of the block at places[n], its type drawn from the mix and its scale from the range.
 Planted plant_at(Planting& planting, const Sowing& what, std::span<const Vec2> places, float jitter_m = 0.0f);

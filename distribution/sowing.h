@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -50,11 +51,18 @@ struct Sown {
   bool cancelled = false;  ///< fewer than asked because somebody wanted it so
 };
 
+/// The type (entry of the mix) of the tree with a key, drawn among those not marked in `full` (none when it is empty).
+std::optional<std::size_t> draw_type(const Planting& planting, const Sowing& what, std::uint64_t key,
+                                     const std::vector<bool>& full);
+
+/// The scale of the tree with a key if it is of that type.
+float draw_scale(const Planting& planting, const Sowing& what, std::uint64_t key, std::size_t type);
+
 /// Plants `count` trees inside a region.
 Sown sow(Planting& planting, const Sowing& what, const Region& where, std::size_t count, Progress* progress = nullptr);
 
 /// Number of trees to sow so that the region comes to hold `per_hectare` of the mixed types, those standing counted in.
-std::size_t count_to_density(const Planting& planting, const Sowing& what, const Region& where, float per_hectare);
+std::size_t count_to_density(Planting& planting, const Sowing& what, const Region& where, float per_hectare);
 
 struct BrushEvent {
   Vec2 at{0.0f};

@@ -1,0 +1,272 @@
+#include "distribution/probability_field.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/scalar.h"
+
+namespace bosquet::distribution {
+namespace {
+
+constexpr int kBlock = 4;  // cells a side
+constexpr int kBlockCells = kBlock * kBlock;
+constexpr int kBlockLevel = 2;  // 2^2 cells a side
+
+// Logarithms count in steps of 2^-16; weights are clamped to 2^-20 .. 2^20 and count in steps of 2^-20.
+constexpr int kStepBits = 16;
+constexpr std::int64_t kClamp = std::int64_t{20} << kStepBits;
+
+// 2^(n / 4096) in steps of 2^-24: exact to the last of the 24 bits of a float.
+constexpr int kFractionBits = 12;
+const std::array<std::uint64_t, 1 << kFractionBits>& fractions() {
+  static const auto table = [] {
+    std::array<std::uint64_t, 1 << kFractionBits> t{};
+    for (std::size_t n = 0; n < t.size(); ++n)
+      t[n] = static_cast<std::uint64_t>(exp2(static_cast<float>(n) / (1 << kFractionBits)) * 0x1p24f);
+    return t;
+  }();
+  return table;
+}
+
+std::uint64_t fixed_exp2(const std::uint64_t* fraction, std::int64_t log2_steps) {
+  const auto x = static_cast<std::uint64_t>(std::clamp(log2_steps, -kClamp, kClamp - 1) + kClamp);
+  const std::uint64_t f = (x >> (kStepBits - kFractionBits)) & ((1u << kFractionBits) - 1);
+  return (fraction[f] << (x >> kStepBits)) >> 24;
+}
+
+std::uint64_t suited(std::uint64_t weight, std::uint8_t suitability) {
+  // 255 is exactly 1: its share in steps of 2^-16 is 255 * 257 + 1.
+  return (weight * (suitability * std::uint64_t{257} + (suitability == 255 ? 1 : 0))) >> 16;
+}
+
+// -log2 of a uniform number in (0, 1), from a table of log2 with linear interpolation (within 1e-7).
+double race_time(std::uint64_t bits) {
+  constexpr int kBits = 11;
+  static const auto table = [] {
+    std::array<double, (1 << kBits) + 1> t{};
+    for (std::size_t n = 0; n < t.size(); ++n)
+      t[n] = static_cast<double>(log2(1.0f + static_cast<float>(n) / (1 << kBits)));
+    return t;
+  }();
+  const double u = (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52;
+  const auto word = std::bit_cast<std::uint64_t>(u);
+  const int exponent = static_cast<int>(word >> 52) - 1023;
+  const std::uint64_t mantissa = word & ((std::uint64_t{1} << 52) - 1);
+  const auto n = static_cast<std::size_t>(mantissa >> (52 - kBits));
+  const double rest = static_cast<double>(mantissa & ((std::uint64_t{1} << (52 - kBits)) - 1)) * 0x1p-41;
+  return -(static_cast<double>(exponent) + table[n] + (table[n + 1] - table[n]) * rest);
+}
+static_assert(52 - 11 == 41);
+
+std::uint64_t node_number(std::uint32_t attempt, int level, int x, int y) {
+  const auto node =
+      (static_cast<std::uint64_t>(level) * kMostFieldCells + static_cast<std::uint64_t>(y)) * kMostFieldCells +
+      static_cast<std::uint64_t>(x);
+  return (static_cast<std::uint64_t>(attempt) << 32) | node;
+}
+
+}  // namespace
+
+ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability)
+    : cells_(cells), cell_m_(cell_m), blocks_((cells + kBlock - 1) / kBlock) {
+  assert(cells.x > 0 && cells.y > 0 && cells.x <= kMostFieldCells && cells.y <= kMostFieldCells && cell_m > 0.0f);
+  const std::size_t blocks = static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y);
+  assert(suitability.empty() ||
+         suitability.size() == static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
+  log2_.assign(blocks * kBlockCells, 0);
+  cover_.assign(blocks * kBlockCells, 0);
+  suitability_.assign(blocks * kBlockCells, 0);
+  for (int j = 0; j < cells.y; ++j)
+    for (int i = 0; i < cells.x; ++i)
+      suitability_[place({i, j})] = suitability.empty()
+                                        ? 255
+                                        : suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) +
+                                                      static_cast<std::size_t>(i)];
+  for (IVec2 nodes = blocks_;; nodes = (nodes + 1) / 2) {
+    levels_.push_back(
+        {nodes, std::vector<std::uint64_t>(static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y))});
+    if (nodes.x == 1 && nodes.y == 1) break;
+  }
+  top_ = kBlockLevel + static_cast<int>(levels_.size()) - 1;
+  for (std::size_t b = 0; b < blocks; ++b) sum_block(b);
+  sum_above({0, 0}, blocks_ - 1);
+}
+
+std::size_t ProbabilityField::place(IVec2 cell) const {
+  const auto block = static_cast<std::size_t>(cell.y / kBlock) * static_cast<std::size_t>(blocks_.x) +
+                     static_cast<std::size_t>(cell.x / kBlock);
+  return block * kBlockCells + static_cast<std::size_t>(cell.y % kBlock) * kBlock +
+         static_cast<std::size_t>(cell.x % kBlock);
+}
+
+std::uint64_t ProbabilityField::cell_weight(std::size_t n) const {
+  if (cover_[n] != 0 || suitability_[n] == 0) return 0;
+  return suited(fixed_exp2(fractions().data(), log2_[n]), suitability_[n]);
+}
+
+std::uint64_t ProbabilityField::weight(IVec2 cell) const { return cell_weight(place(cell)); }
+std::uint8_t ProbabilityField::suitability(IVec2 cell) const { return suitability_[place(cell)]; }
+
+void ProbabilityField::sum_block(std::size_t block) {
+  const std::size_t first = block * kBlockCells;
+  const std::uint64_t* fraction = fractions().data();
+  std::uint64_t sum = 0;
+  for (std::size_t n = first; n < first + kBlockCells; ++n)
+    if (cover_[n] == 0) sum += suited(fixed_exp2(fraction, log2_[n]), suitability_[n]);
+  levels_[0].sums[block] = sum;
+}
+
+void ProbabilityField::sum_above(IVec2 low, IVec2 high) {
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    low /= 2, high /= 2;
+    const Level& below = levels_[l - 1];
+    Level& level = levels_[l];
+    const auto width = static_cast<std::size_t>(below.nodes.x);
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const bool right = 2 * x + 1 < below.nodes.x, upper = 2 * y + 1 < below.nodes.y;
+        const std::size_t n = static_cast<std::size_t>(2 * y) * width + static_cast<std::size_t>(2 * x);
+        std::uint64_t sum = below.sums[n];
+        if (right) sum += below.sums[n + 1];
+        if (upper) sum += below.sums[n + width];
+        if (right && upper) sum += below.sums[n + width + 1];
+        level
+            .sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.nodes.x) + static_cast<std::size_t>(x)] =
+            sum;
+      }
+  }
+}
+
+void ProbabilityField::change_cover(IVec2 cell, int by) {
+  const std::size_t n = place(cell);
+  assert(by > 0 || cover_[n] > 0);
+  cover_[n] += static_cast<std::uint32_t>(by);
+  sum_block(n / kBlockCells);
+  sum_above(cell / kBlock, cell / kBlock);
+}
+
+void ProbabilityField::apply(const Stamp& stamp, int sign) {
+  const bool acts = stamp.log2_kernel && stamp.active_radius_m > stamp.trunk_radius_m;
+  const float reach = std::max(acts ? stamp.active_radius_m : 0.0f, stamp.covered_radius_m) / cell_m_;
+  const Vec2 at = stamp.at / cell_m_;  // in cells from here on
+  const auto block_of = [&](float x, int blocks) {
+    return static_cast<int>(std::clamp(x / kBlock, 0.0f, static_cast<float>(blocks - 1)));
+  };
+  if (!(reach > 0.0f) || at.x + reach < 0.0f || at.y + reach < 0.0f || at.x - reach > static_cast<float>(cells_.x) ||
+      at.y - reach > static_cast<float>(cells_.y))
+    return;
+  const IVec2 low{block_of(at.x - reach, blocks_.x), block_of(at.y - reach, blocks_.y)};
+  const IVec2 high{block_of(at.x + reach, blocks_.x), block_of(at.y + reach, blocks_.y)};
+
+  const float trunk = stamp.trunk_radius_m / cell_m_;
+  const float to_steps = acts ? kKernelSteps / (stamp.active_radius_m / cell_m_ - trunk) : 0.0f;
+  const float active2 = acts ? stamp.active_radius_m / cell_m_ * (stamp.active_radius_m / cell_m_) : -1.0f;
+  const float covered = stamp.covered_radius_m / cell_m_, covered2 = covered * covered;
+  const std::uint64_t* fraction = fractions().data();
+  constexpr auto kLast = static_cast<float>(kKernelSteps);
+  for (int by = low.y; by <= high.y; ++by) {
+    for (int bx = low.x; bx <= high.x; ++bx) {
+      // Distances of the cells' centres, in cells.
+      const float x0 = static_cast<float>(bx * kBlock) + 0.5f - at.x;
+      const float y0 = static_cast<float>(by * kBlock) + 0.5f - at.y;
+      const float nearest_x = std::max({x0, -x0 - (kBlock - 1), 0.0f});
+      const float nearest_y = std::max({y0, -y0 - (kBlock - 1), 0.0f});
+      const float nearest2 = nearest_x * nearest_x + nearest_y * nearest_y;
+      const bool touched = nearest2 <= active2, closes = nearest2 <= covered2;
+      if (!touched && !closes) continue;
+      const std::size_t block =
+          static_cast<std::size_t>(by) * static_cast<std::size_t>(blocks_.x) + static_cast<std::size_t>(bx);
+      std::int64_t* logs = log2_.data() + block * kBlockCells;
+      std::uint32_t* covers = cover_.data() + block * kBlockCells;
+
+      if (closes) {  // cells that lie within the covered radius with all their corners
+        for (int k = 0; k < kBlockCells; ++k) {
+          const float x = std::abs(x0 + static_cast<float>(k % kBlock)) + 0.5f;
+          const float y = std::abs(y0 + static_cast<float>(k / kBlock)) + 0.5f;
+          if (x * x + y * y <= covered2) covers[k] += static_cast<std::uint32_t>(sign);
+        }
+      }
+      if (touched) {
+        std::array<int, kBlockCells> step;
+        for (int k = 0; k < kBlockCells; ++k) {
+          const float x = x0 + static_cast<float>(k % kBlock), y = y0 + static_cast<float>(k / kBlock);
+          float s = (std::sqrt(x * x + y * y) - trunk) * to_steps;
+          s = s > 0.0f ? s : 0.0f;
+          step[static_cast<std::size_t>(k)] = static_cast<int>(s < kLast ? s : kLast);
+        }
+        const std::int32_t* table = stamp.log2_kernel->data();
+        for (int k = 0; k < kBlockCells; ++k) logs[k] += sign * table[step[static_cast<std::size_t>(k)]];
+      }
+
+      const std::uint8_t* suitability = suitability_.data() + block * kBlockCells;
+      std::uint64_t sum = 0;
+      for (int k = 0; k < kBlockCells; ++k)
+        if (covers[k] == 0) sum += suited(fixed_exp2(fraction, logs[k]), suitability[k]);
+      levels_[0].sums[block] = sum;
+    }
+  }
+  sum_above(low, high);
+}
+
+std::uint64_t ProbabilityField::node_sum(int level, int x, int y) const {
+  if (level >= kBlockLevel) {
+    const Level& l = levels_[static_cast<std::size_t>(level - kBlockLevel)];
+    if (x >= l.nodes.x || y >= l.nodes.y) return 0;
+    return l.sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(l.nodes.x) + static_cast<std::size_t>(x)];
+  }
+  if (level == 0) return x < cells_.x && y < cells_.y ? cell_weight(place({x, y})) : 0;
+  return node_sum(0, 2 * x, 2 * y) + node_sum(0, 2 * x + 1, 2 * y) + node_sum(0, 2 * x, 2 * y + 1) +
+         node_sum(0, 2 * x + 1, 2 * y + 1);
+}
+
+void ProbabilityField::sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const {
+  const auto nodes = mask.nodes();
+  sums.resize(nodes.size());
+  for (std::size_t n = nodes.size(); n-- > 0;) {  // children stand behind their parent
+    const RegionMask::Node& node = nodes[n];
+    switch (node.cover) {
+      case RegionMask::Cover::empty:
+        sums[n] = 0;
+        break;
+      case RegionMask::Cover::full:
+        sums[n] = node_sum(node.level, node.x, node.y);
+        break;
+      case RegionMask::Cover::partial:
+        sums[n] = sums[node.first_child] + sums[node.first_child + 1] + sums[node.first_child + 2] +
+                  sums[node.first_child + 3];
+    }
+  }
+}
+
+std::optional<IVec2> ProbabilityField::draw(const RegionMask& mask, std::span<const std::uint64_t> sums,
+                                            const RandomStream& stream, std::uint32_t attempt) const {
+  assert(sums.size() == mask.nodes().size());
+  if (sums[0] == 0) return std::nullopt;
+  int level = top_, x = 0, y = 0;
+  std::size_t node = 0;
+  bool full = false;  // the whole node lies in the mask, which has no nodes below it
+  while (level > 0) {
+    const RegionMask::Node& at = mask.nodes()[node];
+    full = full || at.cover == RegionMask::Cover::full;
+    --level, x *= 2, y *= 2;
+    int chosen = -1;
+    double chosen_time = 0.0, chosen_sum = 0.0;
+    for (int c = 0; c < 4; ++c) {
+      const int cx = x + c % 2, cy = y + c / 2;
+      const std::uint64_t sum = full ? node_sum(level, cx, cy) : sums[at.first_child + static_cast<std::uint32_t>(c)];
+      if (sum == 0) continue;
+      const double time = race_time(stream.at(node_number(attempt, level, cx, cy)));
+      const auto weight = static_cast<double>(sum);
+      if (chosen < 0 || time * chosen_sum < chosen_time * weight) chosen = c, chosen_time = time, chosen_sum = weight;
+    }
+    assert(chosen >= 0);
+    x += chosen % 2, y += chosen / 2;
+    if (!full) node = at.first_child + static_cast<std::uint32_t>(chosen);
+  }
+  return IVec2{x, y};
+}
+
+}  // namespace bosquet::distribution
