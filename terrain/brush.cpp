@@ -159,13 +159,17 @@ void shape(Heightfield& field, const Stroke& stroke) {
   });
 }
 
-// Raises (or lowers, for include) the mask to the share of each cell that lies within the radius of the line.
+// Raises (or lowers, for include) the mask to a ramp that is 1/2 at the radius and falls over a cell to either side:
+// interpolating it gives the edge back where it was. A line narrower than a cell's diagonal could slip between the
+// cells' centres, so it is widened to that.
 void cover_near(Mask& mask, std::span<const Vec2> line, float radius, bool include) {
+  constexpr float kHalfDiagonal = 0.7072f;
   const float cell = mask.lattice().cell_m;
+  const float edge = std::max(radius, kHalfDiagonal * cell);
   const Mask before = mask;
   TileEditor<std::uint8_t> editor(mask.grid());
-  visit_near(line, radius + 0.5f * cell, before.lattice().cells, cell, 0.5f, [&](int i, int j, float distance) {
-    const std::uint8_t covered = Mask::stored((radius - distance) / cell + 0.5f);
+  visit_near(line, edge + cell, before.lattice().cells, cell, 0.5f, [&](int i, int j, float distance) {
+    const std::uint8_t covered = Mask::stored(0.5f * (edge - distance) / cell + 0.5f);
     const std::uint8_t was = before.grid().at(i, j);
     const auto now = include ? std::min<std::uint8_t>(was, static_cast<std::uint8_t>(255 - covered))
                              : std::max<std::uint8_t>(was, covered);

@@ -66,7 +66,8 @@ Terrain apply(const Terrain& terrain, const Stroke& stroke);
 /// The terrain with nothing planted inside a polygon (its holes stay free).
 Terrain exclude(const Terrain& terrain, const Polygon& area);
 
-/// The terrain with nothing planted within half of `width_m` of a polyline.
+/// The terrain with nothing planted within half of `width_m` of a polyline; at least a cell's diagonal wide, so that a
+/// narrow path has no gaps.
 Terrain exclude_path(const Terrain& terrain, std::span<const Vec2> path, float width_m);
 
 }  // namespace bosquet::terrain

@@ -2,8 +2,8 @@
 //
 // Frame     plan (east, north) metres; value (i, j) belongs to the middle of cell (i, j), bilinear between
 // Storage   8 bits a value, so 0, 1 and multiples of 1/255 are exact
-// Decision  areas are stored as the share of each cell that they cover, so that the contour at 0.5 of the bilinear
-//           value follows a straight edge closer than a cell
+// Decision  an area's edge is stored as a ramp about a cell wide (the share of a cell that lies inside), so that the
+//           contour at 0.5 of the bilinear value follows a straight edge much closer than a cell
 // Errors    none; positions outside are read at the nearest edge
 #pragma once
 
