@@ -39,7 +39,7 @@ struct BranchSample {
 };
 
 struct BranchCurve {
-  std::uint32_t first = 0, count = 0;  ///< in BranchCurves::samples, from base to tip; at least two
+  std::uint32_t first = 0, count = 0;  ///< in BranchCurves::samples, base to tip; 0 for a path without length, else >= 2
   std::int32_t parent = -1;            ///< curve it springs from, -1 for a stem
   float base_radius = 0;               ///< of its wood, without collar
   float weight = 0;  ///< how much would be missed without it: bark area, with all that springs from it

@@ -1,0 +1,306 @@
+#include "geometry/foliage.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/random.h"
+#include "core/scalar.h"
+#include "geometry/branch_mesh.h"
+#include "geometry/leaf_atlas.h"
+
+namespace bosquet::geometry {
+namespace {
+
+Vec3 unit(const Vec3& v, const Vec3& otherwise) {
+  const float l2 = glm::dot(v, v);
+  return l2 > 1e-10f ? v / std::sqrt(l2) : otherwise;
+}
+
+/// Random numbers of a card, and (place kOfInternode) of an internode.
+constexpr std::uint32_t kOfInternode = 0xffff;
+RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32_t place) {
+  return {in.seed, mix_bits(in.key) + (static_cast<std::uint64_t>(internode) << 16) + place, Purpose::foliage};
+}
+
+/// For each standing internode, whether it is young and thin enough to bear leaves.
+std::vector<std::uint8_t> bearing(const FoliageInput& in) {
+  const growth::Skeleton& s = *in.skeleton;
+  std::vector<std::uint16_t> last_growth(s.size(), 0);
+  for (std::uint32_t i : in.paths->internodes) last_growth[i] = s.born[i];
+  for (std::size_t i = s.size(); i-- > 0;) {
+    if (s.parent[i] < 0) continue;
+    std::uint16_t& below = last_growth[static_cast<std::size_t>(s.parent[i])];
+    below = std::max(below, last_growth[i]);
+  }
+  std::vector<std::uint8_t> bears(s.size(), 0);
+  for (std::uint32_t i : in.paths->internodes)
+    bears[i] = 2000.0f * in.radius[i] <= in.foliage->max_twig_mm &&
+               last_growth[i] - s.born[i] <= in.foliage->leaf_life_seasons;
+  return bears;
+}
+
+/// The open side of the crown: the gradient of an ellipsoid as wide and high as the foliage, and a little upward, where
+/// the light is.
+class Crown {
+ public:
+  Crown(const growth::Skeleton& s, std::span<const LeafSite> sites) {
+    DVec3 sum{0.0}, squares{0.0};
+    for (const LeafSite& site : sites) {
+      const DVec3 p{s.distal[site.internode]};
+      sum += p, squares += p * p;
+    }
+    const double n = std::max<double>(1.0, static_cast<double>(sites.size()));
+    const DVec3 mean = sum / n, variance = squares / n - mean * mean;
+    centre_ = Vec3(mean);
+    const auto level = static_cast<float>(variance.x + variance.z), upright = static_cast<float>(variance.y);
+    centre_.y -= 0.4f * std::sqrt(std::max(0.0f, upright));
+    curvature_ = {1.0f / (0.5f * level + 0.05f), 1.0f / (upright + 0.05f), 1.0f / (0.5f * level + 0.05f)};
+  }
+  Vec3 outward(const Vec3& p) const { return unit(unit((p - centre_) * curvature_, kUp) + 0.35f * kUp, kUp); }
+
+ private:
+  Vec3 centre_, curvature_;
+};
+
+LeafFrame frame_at(const FoliageInput& in, const LeafSite& site, const Vec3& twig, const Vec3& radial) {
+  if (site.tip) {
+    const Vec3 up = unit(kUp - twig.y * twig, radial);
+    return {twig, glm::cross(up, twig), up};
+  }
+  const SinCos out = sin_cos(radians(in.foliage->insertion_deg));
+  const Vec3 heading = out.cos * twig + out.sin * radial;
+  const Vec3 up = unit(twig - glm::dot(twig, heading) * heading, radial);
+  return {heading, glm::cross(up, heading), up};
+}
+
+std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
+
+/// Linear colour factor: `warm` above 0 turns green toward yellow and red, below 0 away from it.
+Vec3 hue_turned(float warm) {
+  return warm > 0.0f ? Vec3{1.0f, 1.0f - 0.25f * warm, 1.0f - 0.5f * warm} : Vec3{1.0f + 0.3f * warm, 1.0f, 1.0f};
+}
+
+/// Writes cards: strips of `columns` quads across, one row.
+class Cards {
+ public:
+  Cards(const Crown& crown, float soft) : crown_(crown), soft_(soft) {}
+
+  /// A card with its foot at `foot`, `length` along `heading`; `sides` are the directions from its midline to the left
+  /// and right edge (two halves, or one flat card when they are opposite), `normals` those of the halves.
+  void add(const Vec3& foot, const Vec3& heading, float length, float half_width, const Vec3& left, const Vec3& right,
+           const Vec3& up, const AtlasCell& uv, Rgba8 colour, bool folded) {
+    const Vec3 to_top = length * heading;
+    const bool front = glm::dot(up, crown_.outward(foot + 0.5f * to_top)) >= 0.0f;
+    const Vec3 l = half_width * left, r = half_width * right;
+    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+    const Vec3 across = unit(right - left, left);
+    const auto corner = [&](const Vec3& p, float u, float v, float side) {
+      // Halves of a folded card look a little to their own side.
+      const Vec3 face = (front ? 1.0f : -1.0f) * up + (folded ? 0.35f * side * across : Vec3(0.0f));
+      mesh.positions.push_back(p);
+      mesh.normals.push_back(unit(glm::mix(unit(face, up), crown_.outward(p), soft_), kUp));
+      mesh.uvs.push_back({u, v});
+      mesh.colours.push_back(colour);
+    };
+    const float middle = 0.5f * (uv.u0 + uv.u1);
+    corner(foot + l, uv.u0, uv.v1, -1);
+    if (folded) corner(foot, middle, uv.v1, 0);
+    corner(foot + r, uv.u1, uv.v1, 1);
+    corner(foot + l + to_top, uv.u0, uv.v0, -1);
+    if (folded) corner(foot + to_top, middle, uv.v0, 0);
+    corner(foot + r + to_top, uv.u1, uv.v0, 1);
+    const std::uint32_t row = folded ? 3 : 2;
+    for (std::uint32_t k = 0; k + 1 < row; ++k) {
+      const std::uint32_t a = base + k, b = a + 1, c = a + row, d = c + 1;
+      if (front)
+        mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+      else
+        mesh.indices.insert(mesh.indices.end(), {a, d, b, a, c, d});
+    }
+  }
+
+  TriangleMesh mesh;
+
+ private:
+  const Crown& crown_;
+  float soft_;
+};
+
+AtlasCell inset(AtlasCell cell, float share_of_width) {
+  const float margin = 0.5f * kAtlasMargin, middle = 0.5f * (cell.u0 + cell.u1);
+  const float half = (0.25f - margin) * share_of_width;
+  return {middle - half, cell.v0 + margin, middle + half, cell.v1 - margin};
+}
+
+}  // namespace
+
+std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
+  const growth::Skeleton& s = *in.skeleton;
+  const FoliageLook& look = *in.foliage;
+  const bool leafed = has_leaves(in.look->leaf, in.season);
+  std::vector<LeafSite> sites;
+  if (level == FoliageLevel::leaves && !leafed) return sites;
+  const float spacing = level == FoliageLevel::leaves ? look.leaf_spacing_m : look.cluster_spacing_m;
+  const float fallen = in.season == Season::autumn && !in.look->leaf.evergreen ? look.autumn_fall : 0.0f;
+  const float divergence = radians(look.divergence_deg);
+  const std::vector<std::uint8_t> bears = bearing(in);
+
+  for (const ThickestPaths::Path& path : in.paths->paths) {
+    const auto run = in.paths->of(path);
+    // Around a twig leaves go on turning from internode to internode; 64 turns are enough to forget where it began.
+    std::uint32_t around = static_cast<std::uint32_t>(stream(in, run[0], kOfInternode).at(1) >> 58);
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      const std::uint32_t i = run[k];
+      if (!bears[i]) continue;
+      const Vec3 d = s.distal[i] - s.proximal(i);
+      const float length = std::sqrt(glm::dot(d, d));
+      RandomStream of_internode = stream(in, i, kOfInternode);
+      const auto n = std::min(static_cast<std::uint32_t>(length / spacing + of_internode.uniform()), 1000u);
+      // The foot of a side branch lies inside the wood that bears it.
+      const float inside = k == 0 && path.parent >= 0 ? in.radius[in.paths->internodes[path.node]] : 0.0f;
+      for (std::uint32_t place = 0; place <= n; ++place) {
+        const bool tip = place == n;
+        if (tip && k + 1 < run.size()) break;
+        RandomStream random = stream(in, i, place);
+        LeafSite site;
+        site.internode = i;
+        site.place = place;
+        site.tip = tip;
+        site.at = tip ? 1.0f : (static_cast<float>(place) + random.uniform(0.25f, 0.75f)) / static_cast<float>(n);
+        site.azimuth = divergence * static_cast<float>(around++) + random.uniform(-0.25f, 0.25f);
+        site.size = 1.0f + look.size_variation * random.uniform(-1.0f, 1.0f);
+        if (random.uniform() < fallen || site.at * length < inside) continue;
+        sites.push_back(site);
+      }
+    }
+  }
+  return sites;
+}
+
+std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
+  switch (level) {
+    case FoliageLevel::leaves:
+      return 4;
+    case FoliageLevel::clusters:
+      return foliage.cluster_planes == 1 ? 4 : 2 * static_cast<std::size_t>(foliage.cluster_planes);
+    case FoliageLevel::cards:
+      return 2;
+  }
+  return 2;
+}
+
+LeafFrame turn_petiole(LeafFrame f, const Vec3& toward, float twist, float bend, float turn) {
+  // Steps small enough that the first-order turn is stable.
+  const int steps = 4 + static_cast<int>(2.0f * std::max({twist, bend, turn}));
+  const float ds = 1.0f / static_cast<float>(steps);
+  for (int k = 0; k < steps; ++k) {
+    const float ht = glm::dot(f.heading, toward), lt = glm::dot(f.left, toward);
+    const float about_h = -twist * lt * ds;
+    const float about_l = bend * ht * ds;
+    const float about_u = turn * glm::dot(f.left, glm::cross(toward, glm::cross(f.heading, toward))) * ds;
+    const Vec3 heading = f.heading - about_l * f.up + about_u * f.left;
+    const Vec3 up = f.up - about_h * f.left + about_l * f.heading;
+    f.heading = glm::normalize(heading);
+    f.up = glm::normalize(up - glm::dot(up, f.heading) * f.heading);
+    f.left = glm::cross(f.up, f.heading);
+  }
+  return f;
+}
+
+TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<const LeafSite> sites,
+                          std::size_t count) {
+  const growth::Skeleton& s = *in.skeleton;
+  const FoliageLook& look = *in.foliage;
+  const LeafLook& leaf = in.look->leaf;
+  const std::size_t n = sites.size();
+  count = std::min(count, n);
+  if (count == 0) return {};
+  const auto kept = [&](std::size_t k) { return (k + 1) * count / n != k * count / n; };
+
+  // What is left out adds its area to the others.
+  double all = 0.0, of_kept = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double area = static_cast<double>(sites[k].size) * static_cast<double>(sites[k].size);
+    all += area;
+    if (kept(k)) of_kept += area;
+  }
+  const float growth = static_cast<float>(std::sqrt(all / of_kept));
+
+  // Sizes and angles of this level.
+  const bool single = level == FoliageLevel::leaves;
+  const bool spring = in.season == Season::spring && !leaf.evergreen;
+  const float season_size = !spring ? 1.0f : single ? look.spring_size : 0.5f + 0.5f * look.spring_size;
+  const float cell = (single ? leaf_cell_m(leaf) : cluster_cell_m(leaf)) * season_size * (1.0f - 2.0f * kAtlasMargin);
+  const bool needles = leaf.outline == LeafOutline::needle_spray;
+  const float narrow = single && !needles ? std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f) : 1.0f;
+  const SinCos droop = sin_cos(radians(single ? leaf.droop_deg : look.cluster_droop_deg));
+  const float stiffness = single ? 1.0f : 0.6f;  // a twig turns less than a leaf's stalk
+  const bool folded = single || (level == FoliageLevel::clusters && look.cluster_planes == 1);
+  const int planes = level == FoliageLevel::clusters ? look.cluster_planes : 1;
+  const SinCos fold = sin_cos(radians(folded ? (single ? 0.5f : 1.0f) * look.fold_deg : 0.0f));
+
+  const Crown crown(s, sites);
+  RandomStream of_tree(in.seed, mix_bits(in.key) - 1, Purpose::foliage);
+  const float tree_warmth = look.tree_hue * of_tree.uniform(-0.5f, 0.5f);
+  const float tree_value = 1.0f - 0.16f * look.tree_hue * of_tree.uniform();
+  const float mottle = in.season == Season::autumn && !leaf.evergreen ? 0.35f : 0.12f;
+
+  Cards cards(crown, look.soft_normals);
+  const std::size_t triangles = count * triangles_per_site(look, level);
+  const std::size_t vertices = folded ? 6 * count : 2 * triangles;
+  cards.mesh.positions.reserve(vertices), cards.mesh.normals.reserve(vertices), cards.mesh.uvs.reserve(vertices);
+  cards.mesh.colours.reserve(vertices), cards.mesh.indices.reserve(3 * triangles);
+
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!kept(k)) continue;
+    const LeafSite& site = sites[k];
+    const std::uint32_t i = site.internode;
+    const Vec3 from = s.proximal(i), to = s.distal[i];
+    RandomStream random = stream(in, i, site.place + 0x8000u);
+
+    // Where it stands: azimuth 0 is level, so that two-ranked leaves make flat sprays.
+    const Vec3 twig = unit(to - from, kUp);
+    const Vec3 level_side = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
+    const Vec3 side = unit(level_side - glm::dot(level_side, twig) * twig, Vec3{0, 0, 1});
+    const SinCos a = sin_cos(site.azimuth);
+    const Vec3 radial = a.cos * side + a.sin * glm::cross(side, twig);
+    const Vec3 at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
+
+    // How it turns.
+    const Vec3 out = crown.outward(at);
+    LeafFrame frame = frame_at(in, site, twig, radial);
+    const Vec3 away = unit(Vec3{frame.heading.x, 0, frame.heading.z}, unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0}));
+    const Vec3 level_blade = droop.cos * kUp + droop.sin * away;
+    const Vec3 toward = unit(glm::mix(level_blade, out, look.sun_turn * s.light[i]), kUp);
+    const float ease = stiffness * random.uniform(0.6f, 1.2f);
+    frame = turn_petiole(frame, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+
+    // How it looks.
+    const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
+    const float warmth = look.vigor_hue * weak * weak + tree_warmth + mottle * random.uniform(-1.0f, 1.0f);
+    const float value = occlusion(s.light[i]) * tree_value * random.uniform(0.86f, 1.0f);
+    const Vec3 tint = value * hue_turned(std::clamp(warmth, -1.0f, 1.0f));
+    const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
+    const int variant = random.uniform() < 0.5f ? 0 : 1;
+    AtlasCell uv = inset(single ? leaf_cell(variant) : cluster_cell(variant), narrow);
+    if (random.uniform() < 0.5f) std::swap(uv.u0, uv.u1);
+
+    // A card that stands for many grows around its place, not out of the crown.
+    const float length = cell * site.size * growth;
+    const Vec3 foot = at - 0.5f * (1.0f - 1.0f / growth) * length * frame.heading;
+    for (int plane = 0; plane < planes; ++plane) {
+      LeafFrame f = frame;
+      if (planes > 1) {
+        const SinCos turn = sin_cos(kPi * (static_cast<float>(plane) + 0.5f) / static_cast<float>(planes) - 0.5f * kPi);
+        f.left = turn.cos * frame.left + turn.sin * frame.up;
+        f.up = turn.cos * frame.up - turn.sin * frame.left;
+      }
+      const Vec3 left = fold.cos * f.left - fold.sin * f.up, right = -fold.cos * f.left - fold.sin * f.up;
+      cards.add(foot, f.heading, length, 0.5f * length * narrow, left, right, f.up, uv, colour, folded);
+    }
+  }
+  assert(cards.mesh.triangles() == triangles);
+  return std::move(cards.mesh);
+}
+
+}  // namespace bosquet::geometry

@@ -1,0 +1,89 @@
+#include "geometry/tree_mesh.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "geometry/branch_mesh.h"
+#include "geometry/thickest_path.h"
+
+namespace bosquet::geometry {
+namespace {
+
+// What wood gets of a budget that is too small for both.
+constexpr double kWoodShare = 0.4;
+
+// A level of foliage gives way to the next when its cards would have to stand for more than so many.
+constexpr double kMostLeavesInOne = 2.5;
+constexpr double kMostClustersInOne = 3.0;
+
+// Cards of far trees stand for so many twig clusters.
+constexpr std::size_t kClustersInACard = 6;
+
+std::size_t cards_wanted(FoliageLevel level, std::size_t sites) {
+  return level == FoliageLevel::cards ? (sites + kClustersInACard - 1) / kClustersInACard : sites;
+}
+
+}  // namespace
+
+TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float> radius, const Look& look,
+                         const FoliageLook& foliage, const MeshOptions& options) {
+  assert(radius.size() == skeleton.size());
+  const auto stands = standing(skeleton, options.season_of_growth);
+  const ThickestPaths paths = thickest_paths(skeleton, radius, stands);
+  const BranchCurves curves = branch_curves(skeleton, radius, paths);
+  const FoliageInput input{&skeleton,      &paths,       radius,     options.season_of_growth, &look, &foliage,
+                           options.season, options.seed, options.key};
+  FoliageLevel level = options.foliage;
+  std::vector<LeafSite> sites = leaf_sites(input, level);
+  std::size_t cards = cards_wanted(level, sites.size());
+
+  BranchPlan plan;
+  if (options.max_triangles == 0) {
+    plan = plan_branches(curves, 1.0f);
+  } else {
+    // Wood takes its share, or all that leaves do not need.
+    const std::size_t budget = options.max_triangles;
+    const std::size_t leafy = cards * triangles_per_site(foliage, level);
+    const auto share = static_cast<std::size_t>(kWoodShare * static_cast<double>(budget));
+    plan = plan_branches_within(curves, std::max(share, budget - std::min(budget, leafy)));
+
+    // Leaves take the rest, at the finest level whose cards need not grow too much.
+    const std::size_t rest = budget - std::min(budget, plan.triangles);
+    const auto crowded = [&](double most) {
+      const double wanted = static_cast<double>(cards * triangles_per_site(foliage, level));
+      return wanted > most * static_cast<double>(rest);
+    };
+    if (level == FoliageLevel::leaves && crowded(kMostLeavesInOne)) {
+      level = FoliageLevel::clusters;
+      sites = leaf_sites(input, level);
+      cards = cards_wanted(level, sites.size());
+    }
+    if (level == FoliageLevel::clusters && crowded(kMostClustersInOne)) level = FoliageLevel::cards;
+    cards = std::min(cards, rest / triangles_per_site(foliage, level));
+  }
+  return {mesh_branches(curves, plan, look, options.seed, options.key), mesh_foliage(input, level, sites, cards)};
+}
+
+std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const float> radius, const Look& look,
+                               const FoliageLook& foliage, const MeshOptions& options) {
+  const auto stands = standing(skeleton, options.season_of_growth);
+  float thinnest = 0.0f;
+  for (std::size_t i = 0; i < skeleton.size(); ++i)
+    if (stands[i] && (thinnest == 0.0f || radius[i] < thinnest)) thinnest = radius[i];
+
+  const bool leaves = options.foliage == FoliageLevel::leaves;
+  const float spacing = leaves ? foliage.leaf_spacing_m : foliage.cluster_spacing_m;
+  double wood = 0.0, leafy_m = 0.0;
+  for (std::size_t i = 0; i < skeleton.size(); ++i) {
+    if (!stands[i]) continue;
+    const Vec3 d = skeleton.distal[i] - skeleton.proximal(i);
+    wood += std::min(56.0f, 6.0f * std::sqrt(radius[i] / std::max(thinnest, 1e-5f)));
+    if (2000.0f * radius[i] <= foliage.max_twig_mm) leafy_m += std::sqrt(glm::dot(d, d));
+  }
+  const bool bare = leaves && !has_leaves(look.leaf, options.season);
+  const auto sites = bare ? std::size_t{0} : static_cast<std::size_t>(leafy_m / static_cast<double>(spacing));
+  return static_cast<std::size_t>(wood) +
+         cards_wanted(options.foliage, sites) * triangles_per_site(foliage, options.foliage);
+}
+
+}  // namespace bosquet::geometry
