@@ -87,13 +87,9 @@ class Planter {
         break;
       case PlantingKind::row:
       case PlantingKind::hedge:
-        take(block, distribution::plant_at(planting_, what, distribution::row_places(block.line, block.row),
-                                           block.row.jitter_m));
-        break;
+        return plant_places(block, what, distribution::row_places(block.line, block.row), block.row.jitter_m);
       case PlantingKind::grid:
-        take(block,
-             distribution::plant_at(planting_, what, distribution::grid_places(area, block.grid), block.grid.jitter_m));
-        break;
+        return plant_places(block, what, distribution::grid_places(area, block.grid), block.grid.jitter_m);
       case PlantingKind::single:
         plant_single(block);
         break;
@@ -137,8 +133,10 @@ class Planter {
                                     planted.left_out.size() + planted.trees.size(), places));
   }
 
-  Result<void> plant_places(const PlantingRecipe& block, const distribution::Sowing& what, const Result<std::vector<Vec2>>& places, float jitter_m) {
-    if (!places) return Error{fmt::format("{}: planting '{}': {}", recipe_.file.string(), block.name, places.error().message)};
+  Result<void> plant_places(const PlantingRecipe& block, const distribution::Sowing& what,
+                            const Result<std::vector<Vec2>>& places, float jitter_m) {
+    if (!places)
+      return Error{fmt::format("{}: planting '{}': {}", recipe_.file.string(), block.name, places.error().message)};
     take(block, distribution::plant_at(planting_, what, *places, jitter_m));
     return {};
   }

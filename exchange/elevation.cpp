@@ -1,0 +1,262 @@
+#include "exchange/elevation.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "exchange/fill_gaps.h"
+
+namespace bosquet::exchange {
+namespace {
+
+constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937.0;
+// Metres; what lies beyond is no ground but a no-data value that the file does not declare (-32768).
+constexpr double kLowest = -12'000, kHighest = 100'000;
+
+// GDAL reports through a handler of the calling thread; its last words go into our message.
+class GdalMessages {
+ public:
+  GdalMessages() {
+    CPLErrorReset();
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+  }
+  ~GdalMessages() { CPLPopErrorHandler(); }
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  static std::string last() {
+    const char* text = CPLGetLastErrorMsg();
+    return text && *text ? std::string(": ") + text : std::string();
+  }
+};
+
+struct DatasetCloser {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
+
+void register_drivers() {
+  static std::once_flag once;
+  std::call_once(once, [] { GDALAllRegister(); });
+}
+
+// Where cells lie: east = t[0] + column * t[1] + row * t[2], north = t[3] + column * t[4] + row * t[5], from corners.
+struct Georeference {
+  double t[6] = {0, 1, 0, 0, 0, -1};
+  bool present = false;
+  bool turned = false;
+};
+
+Georeference georeference(GDALDataset& dataset, double pixel_m) {
+  Georeference geo;
+  geo.present = dataset.GetGeoTransform(geo.t) == CE_None;
+  if (!geo.present) {
+    const double fresh[6] = {0, pixel_m, 0, dataset.GetRasterYSize() * pixel_m, 0, -pixel_m};
+    std::copy(fresh, fresh + 6, geo.t);
+  }
+  geo.turned = geo.t[2] != 0 || geo.t[4] != 0 || geo.t[1] < 0;
+  return geo;
+}
+
+bool sane(const double (&t)[6]) {
+  return std::all_of(t, t + 6, [](double v) { return std::isfinite(v); }) && t[1] * t[5] - t[2] * t[4] != 0;
+}
+
+// A plane in metres that touches the ground at the raster's centre.
+std::optional<std::string> local_plane(const OGRSpatialReference& crs, const double (&t)[6], int columns, int rows) {
+  OGRSpatialReference degrees;
+  degrees.SetWellKnownGeogCS("WGS84");
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  OGRSpatialReference from(crs);
+  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> to_degrees(OGRCreateCoordinateTransformation(&from, &degrees));
+  double x = t[0] + 0.5 * columns * t[1] + 0.5 * rows * t[2], y = t[3] + 0.5 * columns * t[4] + 0.5 * rows * t[5];
+  if (!to_degrees || !to_degrees->Transform(1, &x, &y)) return std::nullopt;
+  return fmt::format("+proj=tmerc +lat_0={:.9f} +lon_0={:.9f} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs", y, x);
+}
+
+// Warped to `plane` (or, without a reference system, only turned to the north); no-data becomes NaN.
+Dataset warped(GDALDataset& dataset, const std::optional<std::string>& plane) {
+  const char* words[] = {"-of",        "MEM", "-r",  "bilinear",      "-ot",    "Float64",
+                         "-dstnodata", "nan", "-wo", "NUM_THREADS=1", "-t_srs", plane ? plane->c_str() : nullptr,
+                         nullptr};
+  if (!plane) words[10] = nullptr;
+  GDALWarpAppOptions* options = GDALWarpAppOptionsNew(const_cast<char**>(words), nullptr);
+  GDALDatasetH source = &dataset;
+  int misuse = 0;
+  Dataset out(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options, &misuse)));
+  GDALWarpAppOptionsFree(options);
+  return out;
+}
+
+double metres_per_unit(GDALRasterBand& band) {
+  const std::string unit = band.GetUnitType() ? band.GetUnitType() : "";
+  if (unit == "ft" || unit == "foot" || unit == "feet") return kFoot;
+  if (unit == "US survey foot" || unit == "ftUS" || unit == "us_survey_foot") return kSurveyFoot;
+  return 1;
+}
+
+// Rows of the band from south to north; what has no data, or cannot be a height, becomes NaN.
+Result<std::vector<float>> read_band(GDALDataset& dataset, GDALRasterBand& band, const std::string& name,
+                                     const ElevationOptions& options, bool south_up, bool rounded) {
+  const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
+  int has_nodata = 0, has_scale = 0, has_offset = 0;
+  const double nodata = band.GetNoDataValue(&has_nodata);
+  const double scale = band.GetScale(&has_scale), offset = band.GetOffset(&has_offset);
+  const double factor = (has_scale ? scale : 1) * metres_per_unit(band) * options.height_scale;
+  const double shift =
+      (has_offset ? offset : 0) * metres_per_unit(band) * options.height_scale + options.height_offset_m;
+  GDALRasterBand* mask = band.GetMaskFlags() & GMF_PER_DATASET ? band.GetMaskBand() : nullptr;
+
+  std::vector<float> samples(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  std::vector<double> line(static_cast<std::size_t>(columns));
+  std::vector<std::uint8_t> valid(line.size(), 255);
+  for (int r = 0; r < rows; ++r) {
+    if (band.RasterIO(GF_Read, 0, r, columns, 1, line.data(), columns, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+        (mask &&
+         mask->RasterIO(GF_Read, 0, r, columns, 1, valid.data(), columns, 1, GDT_Byte, 0, 0, nullptr) != CE_None))
+      return Error{
+          fmt::format("{} ({} x {} cells) is damaged at row {}{}", name, columns, rows, r + 1, GdalMessages::last())};
+    const auto out_row = static_cast<std::size_t>(south_up ? r : rows - 1 - r);
+    float* out = samples.data() + out_row * line.size();
+    for (std::size_t c = 0; c < line.size(); ++c) {
+      double height = factor * line[c] + shift;
+      // float32 files often give their no-data value as a longer decimal than they hold.
+      const bool empty =
+          valid[c] == 0 ||
+          (has_nodata && (line[c] == nodata || static_cast<float>(line[c]) == static_cast<float>(nodata)));
+      if (rounded) height = std::round(1000 * height) / 1000;
+      out[c] = empty || !(height >= kLowest && height <= kHighest) ? std::numeric_limits<float>::quiet_NaN()
+                                                                   : static_cast<float>(height);
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+Result<Elevation> read_elevation(const std::filesystem::path& path, const ElevationOptions& options) {
+  const std::string name = path.string();
+  if (!std::filesystem::exists(path)) return Error{fmt::format("there is no elevation file {}", name)};
+  if (!std::filesystem::is_regular_file(path)) return Error{fmt::format("elevation {} is no regular file", name)};
+  register_drivers();
+  const GdalMessages messages;
+  Dataset dataset(
+      GDALDataset::FromHandle(GDALOpenEx(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
+  if (!dataset) return Error{fmt::format("{} is no raster that can be read{}", name, GdalMessages::last())};
+  int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+  if (dataset->GetRasterCount() < 1)
+    return Error{fmt::format("{} ({} x {} cells) holds no band of heights", name, columns, rows)};
+  const auto too_large = [&](double w, double h) {
+    return Error{
+        fmt::format("{} has {:.0f} x {:.0f} cells; at most {} cells are read: cut it to the site or make it coarser "
+                    "(gdal_translate)",
+                    name, w, h, options.max_cells)};
+  };
+  if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) > options.max_cells)
+    return too_large(columns, rows);
+
+  // A scale or unit of the band is lost when warped, so it is asked for first.
+  GDALRasterBand* band = dataset->GetRasterBand(1);
+  if (GDALDataTypeIsComplex(band->GetRasterDataType()))
+    return Error{fmt::format("{} ({} x {} cells) holds complex numbers, no heights", name, columns, rows)};
+  ElevationOptions heights = options;
+  Georeference geo = georeference(*dataset, options.pixel_m);
+  if (!sane(geo.t)) return Error{fmt::format("{}: its georeference gives cells without area", name)};
+  const OGRSpatialReference* crs = dataset->GetSpatialRef();
+  const bool in_metres = !crs || (!crs->IsGeographic() && std::abs(crs->GetLinearUnits() - 1) < 1e-9);
+
+  Elevation out;
+  out.file = name;
+  Dataset plane;
+  if (!in_metres || geo.turned) {
+    out.reprojected = true;
+    std::optional<std::string> target;
+    if (crs) {
+      target = local_plane(*crs, geo.t, columns, rows);
+      if (!target)
+        return Error{fmt::format("{}: its place on the earth cannot be worked out{}", name, GdalMessages::last())};
+    }
+    int has_scale = 0, has_offset = 0;
+    const double unit = metres_per_unit(*band), scale = band->GetScale(&has_scale),
+                 offset = band->GetOffset(&has_offset);
+    heights.height_scale = options.height_scale * unit * (has_scale ? scale : 1);
+    heights.height_offset_m = options.height_offset_m + options.height_scale * unit * (has_offset ? offset : 0);
+    plane = warped(*dataset, target);
+    if (!plane) return Error{fmt::format("{} cannot be brought into metres{}", name, GdalMessages::last())};
+    columns = plane->GetRasterXSize(), rows = plane->GetRasterYSize();
+    if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) > options.max_cells)
+      return too_large(columns, rows);
+    geo = georeference(*plane, options.pixel_m);
+    band = plane->GetRasterBand(1);
+    band->SetScale(1), band->SetOffset(0), band->SetUnitType("");
+    crs = plane->GetSpatialRef();
+  }
+
+  const bool south_up = geo.t[5] > 0;
+  auto samples = read_band(plane ? *plane : *dataset, *band, name, heights, south_up, out.reprojected && crs);
+  if (!samples) return samples.error();
+  out.columns = columns, out.rows = rows;
+  out.cell_x_m = std::abs(geo.t[1]), out.cell_y_m = std::abs(geo.t[5]);
+  const double south = south_up ? geo.t[3] : geo.t[3] + rows * geo.t[5];
+  out.origin = {geo.t[0] + 0.5 * out.cell_x_m, south + 0.5 * out.cell_y_m};
+  out.samples = *std::move(samples);
+  out.filled = static_cast<std::uint64_t>(
+      std::count_if(out.samples.begin(), out.samples.end(), [](float v) { return std::isnan(v); }));
+  if (out.filled == out.samples.size())
+    return Error{
+        fmt::format("{} ({} x {} cells) holds no height: all its cells are without data", name, columns, rows)};
+  if (out.filled > 0) fill_gaps(out.columns, out.rows, out.samples);
+  if (crs) {
+    char* wkt = nullptr;
+    if (crs->exportToWkt(&wkt) == OGRERR_NONE && wkt) out.crs_wkt = wkt;
+    CPLFree(wkt);
+  }
+  return out;
+}
+
+float height_at(const Elevation& elevation, DVec2 place) {
+  const double x = std::clamp((place.x - elevation.origin.x) / elevation.cell_x_m, 0.0, elevation.columns - 1.0);
+  const double y = std::clamp((place.y - elevation.origin.y) / elevation.cell_y_m, 0.0, elevation.rows - 1.0);
+  const int c = std::min(static_cast<int>(x), std::max(0, elevation.columns - 2));
+  const int r = std::min(static_cast<int>(y), std::max(0, elevation.rows - 2));
+  const int c2 = std::min(c + 1, elevation.columns - 1), r2 = std::min(r + 1, elevation.rows - 1);
+  const double fx = x - c, fy = y - r;
+  const double south = elevation.at(c, r) * (1 - fx) + elevation.at(c2, r) * fx;
+  const double north = elevation.at(c, r2) * (1 - fx) + elevation.at(c2, r2) * fx;
+  return static_cast<float>(south * (1 - fy) + north * fy);
+}
+
+Result<std::vector<float>> heights_at_corners(const Elevation& elevation, DVec2 south_west, int columns, int rows,
+                                              double cell_m) {
+  assert(columns > 0 && rows > 0 && cell_m > 0);
+  const DVec2 north_east = south_west + cell_m * DVec2(columns, rows), low = elevation.low_corner(),
+              high = elevation.high_corner();
+  // A thousandth of a cell is rounding in the file's corners.
+  const double slack_x = 1e-3 * elevation.cell_x_m, slack_y = 1e-3 * elevation.cell_y_m;
+  if (south_west.x < low.x - slack_x || south_west.y < low.y - slack_y || north_east.x > high.x + slack_x ||
+      north_east.y > high.y + slack_y)
+    return Error{fmt::format(
+        "{} ({} x {} cells) does not cover the site: it reaches from east {:.10g} to {:.10g} m and north {:.10g} to "
+        "{:.10g} m, the site from {:.10g} to {:.10g} and {:.10g} to {:.10g}",
+        elevation.file, elevation.columns, elevation.rows, low.x, high.x, low.y, high.y, south_west.x, north_east.x,
+        south_west.y, north_east.y)};
+  std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1));
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) out.push_back(height_at(elevation, south_west + cell_m * DVec2(i, j)));
+  return out;
+}
+
+}  // namespace bosquet::exchange
