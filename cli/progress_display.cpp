@@ -32,7 +32,8 @@ std::string time_left(double elapsed_s, double share) {
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(Progress& progress, bool quiet) : progress_(progress), terminal_(isatty(STDERR_FILENO) != 0) {
+ProgressDisplay::ProgressDisplay(Progress& progress, bool quiet)
+    : progress_(progress), terminal_(isatty(STDERR_FILENO) != 0) {
   interrupted_progress.store(&progress);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);

@@ -13,12 +13,12 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 
   Image() = default;
-  Image(int width, int height, int channels)
-      : width(width),
-        height(height),
-        channels(channels),
-        pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-               static_cast<std::size_t>(channels)) {}
+  Image(int columns, int rows, int channel_count)
+      : width(columns),
+        height(rows),
+        channels(channel_count),
+        pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) *
+               static_cast<std::size_t>(channel_count)) {}
 
   bool empty() const { return pixels.empty(); }
   std::uint8_t* at(int x, int y) { return pixels.data() + offset(x, y); }

@@ -1,0 +1,132 @@
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "cli/options.h"
+#include "cli/version.h"
+
+namespace bosquet::cli {
+namespace {
+
+const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+
+template <class Enum, std::size_t N>
+std::map<std::string, Enum> by_name(const std::array<std::string_view, N>& names) {
+  std::map<std::string, Enum> map;
+  for (std::size_t i = 0; i < N; ++i) map.emplace(names[i], static_cast<Enum>(i));
+  return map;
+}
+
+void add_common(CLI::App* app, Options& o) {
+  app->add_option("--threads", o.threads, "Threads to use; 0 is one per core")
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+  app->add_option("--report", o.report, "Writes counts, seconds and warnings as JSON")->option_text("FILE.json");
+  app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings");
+}
+
+void add_scene(CLI::App* app, Options& o) {
+  app->add_option("--seed", o.seed, "Seed in place of the recipe's")->option_text("S");
+  app->add_option("--year", o.grow.year, "Age in years at which trees are shown; default: grown up")
+      ->check(CLI::Range(0.0, 2000.0))
+      ->option_text("N");
+  app->add_option("--season", o.season, "spring, summer, autumn or bare")
+      ->transform(CLI::CheckedTransformer(by_name<geometry::Season>(geometry::kSeasonNames)))
+      ->option_text("NAME");
+  app->add_option("--detail", o.grow.detail, "Internodes are this many times shorter, 0.25 to 4")
+      ->check(CLI::Range(0.25, 4.0))
+      ->option_text("K");
+  app->add_option("--foliage", o.foliage, "leaves, clusters or cards")
+      ->transform(CLI::CheckedTransformer(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
+      ->option_text("LEVEL");
+  app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")->option_text("N");
+  app->add_option("--regions", o.grow.regions, "on: trees keep to their crown regions")
+      ->transform(CLI::CheckedTransformer(kOnOff))
+      ->option_text("on|off");
+  app->add_option("--asymmetry", o.grow.asymmetry, "on: trees lean away from their neighbours")
+      ->transform(CLI::CheckedTransformer(kOnOff))
+      ->option_text("on|off");
+}
+
+void add_picture(CLI::App* app, Options& o) {
+  app->add_option("--camera", o.camera,
+                  "A camera of the recipe, or eye and target as east,north,height,east,north,height")
+      ->option_text("NAME|x,y,z,tx,ty,tz");
+  app->add_option("--sun", o.sun, "\"2026-06-21 15:00\" or azimuth,elevation in degrees")->option_text("TIME|az,el");
+  app->add_option_function<std::string>(
+         "--size",
+         [&o](const std::string& text) {
+           int w = 0, h = 0, used = 0;
+           if (std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &used) != 2 ||
+               static_cast<std::size_t>(used) != text.size() || w < 16 || h < 16 || w > 16384 || h > 16384)
+             throw CLI::ValidationError("--size",
+                                        "'" + text + "' must be WIDTHxHEIGHT in pixels, 16 to 16384, like 1600x900");
+           o.width = w, o.height = h;
+         },
+         "Pixels, default 1600x900")
+      ->option_text("WxH");
+}
+
+}  // namespace
+
+ParsedLine parse_command_line(int argc, char** argv) {
+  ParsedLine parsed;
+  Options& o = parsed.options;
+
+  CLI::App app{"Bosquet: paint a forest, and every tree grows its own way."};
+  app.set_version_flag("--version", std::string("bosquet ") + kVersion);
+  app.require_subcommand(1);
+
+  CLI::App* make = app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb");
+  make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  make->add_option("-o,--output", o.outputs, "Output; may be given several times")->required()->option_text("OUT");
+  add_scene(make, o), add_picture(make, o), add_common(make, o);
+  make->callback([&] { o.command = Command::make; });
+
+  CLI::App* render = app.add_subcommand("render", "Grows the scene of a recipe and draws a picture of it");
+  render->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  render->add_option("-o,--output", o.outputs, "Picture (.png)")->required()->expected(1)->option_text("OUT.png");
+  render->add_option("--view", o.view, "trees, shapes, regions, arrows or plan")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ViewKind>{{"trees", ViewKind::trees},
+                                                                          {"shapes", ViewKind::shapes},
+                                                                          {"regions", ViewKind::regions},
+                                                                          {"arrows", ViewKind::arrows},
+                                                                          {"plan", ViewKind::plan}}))
+      ->option_text("NAME");
+  render->add_option("--slice", o.slice_m, "Height in metres at which --view regions cuts")->option_text("M");
+  add_scene(render, o), add_picture(render, o), add_common(render, o);
+  render->callback([&] { o.command = Command::render; });
+
+  CLI::App* info = app.add_subcommand("info", "Says what is in a glTF file or a recipe");
+  info->add_option("file", o.file, ".glb, .gltf or recipe")->required()->option_text("FILE");
+  info->add_flag("--json", o.json, "As JSON");
+  info->callback([&] { o.command = Command::info; });
+
+  CLI::App* import = app.add_subcommand("import", "Adds ground or trees to a recipe, which is made when missing");
+  import->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  import->add_option("--dem", o.dem, "Elevation raster (GeoTIFF, PNG, ...)")->option_text("FILE");
+  import->add_option("--trees", o.inventory, "Tree inventory (.csv)")->option_text("FILE");
+  import->callback([&] { o.command = Command::import;
+});
+
+CLI::App* stats = app.add_subcommand("stats", "Grows a recipe and measures the pattern of bases and crown centroids");
+stats->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+stats->add_flag("--json", o.json, "As JSON");
+add_scene(stats, o), add_common(stats, o);
+stats->callback([&] { o.command = Command::stats; });
+
+CLI::App* species = app.add_subcommand("species", "The built-in species");
+species->require_subcommand(1);
+species->add_subcommand("list", "Names them")->callback([&] { o.command = Command::species_list; });
+CLI::App* show = species->add_subcommand("show", "Prints a species' file");
+show->add_option("name", o.species)->required();
+show->callback([&] { o.command = Command::species_show; });
+
+try {
+  app.parse(argc, argv);
+} catch (const CLI::ParseError& e) {
+  parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
+}
+return parsed;
+}  // namespace bosquet::cli
+
+}  // namespace bosquet::cli

@@ -1,0 +1,24 @@
+// Commands: what each word of the command line does.
+//
+// Errors    come back as values; main() prints them and chooses the exit status
+#pragma once
+
+#include "cli/options.h"
+#include "core/result.h"
+
+namespace bosquet::cli {
+
+/// `bosquet make`: recipe -> every output asked for, by its ending.
+Result<void> run_make(const Options& options);
+/// `bosquet render`: recipe -> one picture.
+Result<void> run_render(const Options& options);
+/// `bosquet info`: what is in a glTF file or a recipe, on stdout.
+Result<void> run_info(const Options& options);
+/// `bosquet import`: ground and trees into a recipe file.
+Result<void> run_import(const Options& options);
+/// `bosquet stats`: pattern statistics of bases and crown centroids, on stdout.
+Result<void> run_stats(const Options& options);
+/// `bosquet species list | show NAME`.
+Result<void> run_species(const Options& options);
+
+}  // namespace bosquet::cli

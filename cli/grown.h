@@ -1,0 +1,17 @@
+// Grown: the way from a recipe file to a grown scene that several commands share.
+#pragma once
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "core/progress.h"
+#include "scene/grown_scene.h"
+
+namespace bosquet::cli {
+
+/// Reads the recipe, plants and grows; fills the report as far as it goes.
+Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress);
+
+/// Prints warnings on stderr unless quiet; long lists are cut, the report has them all.
+void print_warnings(const std::vector<std::string>& warnings, bool quiet);
+
+}  // namespace bosquet::cli

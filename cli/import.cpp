@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/commands.h"
+#include "cli/grown.h"
+#include "exchange/elevation.h"
+#include "exchange/file_output.h"
+#include "exchange/inventory.h"
+#include "exchange/recipe.h"
+
+namespace bosquet::cli {
+namespace {
+
+using std::filesystem::path;
+
+constexpr std::uint64_t kMostRecipeBytes = 64 << 20;
+
+// Coordinates that start this near to 0, as a share of their extent, are a plot's own and keep their origin.
+constexpr double kOwnOrigin = 0.1;
+
+struct Extent {
+  DVec2 south_west{0.0}, size{0.0};
+};
+
+std::string path_from(const path& recipe, const path& file) {
+  std::error_code ec;
+  const path folder = recipe.has_parent_path() ? recipe.parent_path() : path(".");
+  const path relative = std::filesystem::relative(file, folder, ec);
+  return (ec || relative.empty() ? std::filesystem::absolute(file) : relative).generic_string();
+}
+
+Result<Extent> extent_of_trees(const exchange::Inventory& inventory, const path& file) {
+  if (inventory.trees.empty()) return Error{fmt::format("{}: no row has a usable position", file.string())};
+  DVec2 low(INFINITY), high(-INFINITY);
+  for (const exchange::InventoryTree& tree : inventory.trees)
+    low = glm::min(low, tree.plan), high = glm::max(high, tree.plan);
+  const DVec2 extent = high - low;
+  DVec2 corner = glm::floor(low);
+  if (low.x >= 0 && low.y >= 0 && low.x <= kOwnOrigin * extent.x && low.y <= kOwnOrigin * extent.y) corner = DVec2(0.0);
+  return Extent{corner, glm::max(glm::ceil(high - corner), DVec2(1.0))};
+}
+
+// Puts `lines` right under the header of a table, or makes the table at the end.
+std::string with_table_lines(std::string text, std::string_view header, const std::string& lines) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line(text.data() + at, end - at);
+    line = line.substr(0, line.find('#'));
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.remove_suffix(1);
+    if (line == header) return text.insert(std::min(end + 1, text.size()), lines);
+    at = end + 1;
+  }
+  return text + fmt::format("\n{}\n{}", header, lines);
+}
+
+Result<std::string> old_text(const path& recipe) {
+  std::error_code ec;
+  if (!std::filesystem::exists(recipe, ec)) return std::string();
+  auto bytes = exchange::read_file(recipe, kMostRecipeBytes);
+  if (!bytes) return bytes.error();
+  return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+}  // namespace
+
+Result<void> run_import(const Options& options) {
+  if (options.file.extension() != ".toml")
+    return Error{fmt::format("{}: import adds to a recipe, a .toml file", options.file.string())};
+  if (options.dem.empty() && options.inventory.empty()) return Error{"import needs --dem FILE, --trees FILE or both"};
+  auto text = old_text(options.file);
+  if (!text) return text.error();
+  const bool fresh = text->empty();
+
+  std::optional<Extent> site;
+  if (!fresh) {
+    auto recipe = exchange::parse_recipe(*text, options.file);
+    if (!recipe) return recipe.error();
+    site = Extent{recipe->ground.dem_corner_given ? recipe->ground.dem_south_west : DVec2(0.0), DVec2(recipe->size_m)};
+  }
+
+  std::string ground;
+  if (!options.dem.empty()) {
+    auto raster = exchange::read_elevation(options.dem);
+    if (!raster) return raster.error();
+    if (!site) site = Extent{raster->low_corner(), raster->high_corner() - raster->low_corner()};
+    ground = fmt::format("dem = \"{}\"\ndem_south_west = [{}, {}]\n", path_from(options.file, options.dem),
+                         site->south_west.x, site->south_west.y);
+    fmt::print("{}: {} x {} cells of {:g} m\n", options.dem.string(), raster->columns, raster->rows, raster->cell_x_m);
+  }
+
+  std::string trees;
+  if (!options.inventory.empty()) {
+    exchange::InventoryOptions reading;
+    if (site) reading.south_west = site->south_west, reading.size_m = site->size;
+    auto inventory = exchange::read_inventory(options.inventory, reading);
+    if (!inventory) return inventory.error();
+    print_warnings(exchange::problem_lines(inventory->problems, options.inventory.string()), options.quiet);
+    if (!site) {
+      auto extent = extent_of_trees(*inventory, options.inventory);
+      if (!extent) return extent.error();
+      site = *extent;
+    }
+    trees = fmt::format("\n[[planting]]\nname = \"{}\"\nkind = \"inventory\"\nfile = \"{}\"\nsouth_west = [{}, {}]\n",
+                        options.inventory.stem().string(), path_from(options.file, options.inventory),
+                        site->south_west.x, site->south_west.y);
+    fmt::print("{}: {} trees\n", options.inventory.string(), inventory->trees.size());
+  }
+
+  if (fresh)
+    *text = fmt::format("[site]\nsize_m = [{:g}, {:g}]\nseed = 1\nsouth_west = [{}, {}]\n", site->size.x, site->size.y,
+                        site->south_west.x, site->south_west.y);
+  if (!ground.empty()) *text = with_table_lines(std::move(*text), "[terrain]", ground);
+  *text += trees;
+  if (auto fine = exchange::parse_recipe(*text, options.file); !fine) return fine.error();
+  if (auto written = exchange::write_file(options.file, *text); !written) return written.error();
+  fmt::print("{}: site {:g} x {:g} m; grow it with: bosquet make {} -o OUT.glb\n", options.file.string(), site->size.x,
+             site->size.y, options.file.string());
+  return {};
+}
+
+}  // namespace bosquet::cli

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "exchange/gltf_info.h"
+#include "exchange/recipe.h"
+
+namespace bosquet::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const scene::Extras& extras) {
+  Json json = Json::object();
+  for (const auto& [name, value] : extras) std::visit([&, key = name](const auto& v) { json[key] = v; }, value);
+  return json;
+}
+
+std::optional<double> number(const scene::Extras& extras, std::string_view name) {
+  for (const auto& [key, value] : extras)
+    if (key == name && std::holds_alternative<double>(value)) return std::get<double>(value);
+  return {};
+}
+
+std::string text(const scene::Extras& extras, std::string_view name) {
+  for (const auto& [key, value] : extras)
+    if (key == name && std::holds_alternative<std::string>(value)) return std::get<std::string>(value);
+  return {};
+}
+
+Json gltf_json(const exchange::GltfInfo& info) {
+  Json json;
+  json["generator"] = info.generator;
+  json["bytes"] = info.file_bytes;
+  json["triangles"] = info.triangles;
+  json["vertices"] = info.vertices;
+  json["meshes"] = info.meshes;
+  json["materials"] = info.materials;
+  json["images"] = info.images;
+  json["cameras"] = info.cameras;
+  json["extensions_used"] = info.extensions_used;
+  json["extensions_required"] = info.extensions_required;
+  json["scene"] = json_of(info.extras);
+  json["nodes"] = Json::array();
+  for (const exchange::GltfNode& node : info.nodes)
+    json["nodes"].push_back({{"name", node.name}, {"triangles", node.triangles}, {"extras", json_of(node.extras)}});
+  return json;
+}
+
+void print_gltf(const exchange::GltfInfo& info, const std::string& file) {
+  fmt::print("{}: glTF 2.0 by {}, {:.1f} MB\n", file, info.generator.empty() ? "unknown" : info.generator,
+             static_cast<double>(info.file_bytes) / 1e6);
+  fmt::print("{} triangles, {} vertices, {} meshes, {} materials, {} images, {} cameras\n", info.triangles,
+             info.vertices, info.meshes, info.materials, info.images, info.cameras);
+  if (auto east = number(info.extras, "site_east_m"), north = number(info.extras, "site_north_m"); east && north)
+    fmt::print("site {:g} x {:g} m\n", *east, *north);
+
+  std::map<std::string, std::size_t> count;
+  for (const exchange::GltfNode& node : info.nodes)
+    if (number(node.extras, "height_m")) ++count[text(node.extras, "species")];
+  for (const auto& [species, n] : count) fmt::print("{} {}\n", n, species);
+  if (count.empty()) return;
+  fmt::print("\n{:<24} {:<22} {:>9} {:>9} {:>9} {:>9} {:>10}\n", "name", "species", "height m", "trunk cm", "crown m",
+             "age", "triangles");
+  for (const exchange::GltfNode& node : info.nodes) {
+    const auto height = number(node.extras, "height_m");
+    if (!height) continue;
+    fmt::print("{:<24} {:<22} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.0f} {:>10}\n", node.name,
+               text(node.extras, "botanical_name"), *height,
+               100.0 * number(node.extras, "trunk_diameter_m").value_or(0.0),
+               number(node.extras, "crown_diameter_m").value_or(0.0), number(node.extras, "age_years").value_or(0.0),
+               node.triangles);
+  }
+}
+
+Result<void> recipe_info(const Options& options) {
+  auto recipe = exchange::read_recipe(options.file, options.seed);
+  if (!recipe) return recipe.error();
+  auto built = exchange::build_document(*recipe);
+  if (!built) return built.error();
+  std::map<std::string, std::size_t> count;
+  for (const scene::Tree& tree : *built->document.trees) ++count[built->document.species_of(tree).name];
+  const Vec2 size = recipe->size_m;
+  if (options.json) {
+    Json json;
+    json["site_m"] = {size.x, size.y};
+    json["seed"] = built->document.seed;
+    json["trees"] = built->document.trees->size();
+    json["species"] = count;
+    json["warnings"] = built->warnings;
+    fmt::print("{}\n", json.dump(2));
+    return {};
+  }
+  fmt::print("{}: recipe, site {:g} x {:g} m, {} trees\n", options.file.string(), size.x, size.y,
+             built->document.trees->size());
+  for (const auto& [name, n] : count) fmt::print("{} {}\n", n, name);
+  for (const std::string& warning : built->warnings) fmt::print(stderr, "warning: {}\n", warning);
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_info(const Options& options) {
+  const std::string ending = options.file.extension().string();
+  if (ending == ".toml") return recipe_info(options);
+  if (ending != ".glb" && ending != ".gltf")
+    return Error{fmt::format("{}: info reads .glb, .gltf and recipes (.toml)", options.file.string())};
+  auto info = exchange::read_gltf_info(options.file);
+  if (!info) return info.error();
+  if (options.json)
+    fmt::print("{}\n", gltf_json(*info).dump(2, ' ', false, Json::error_handler_t::replace));
+  else
+    print_gltf(*info, options.file.string());
+  return {};
+}
+
+}  // namespace bosquet::cli

@@ -1,0 +1,51 @@
+// The bosquet command: the only place that turns errors into an exit status.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.h"
+
+namespace {
+
+using namespace bosquet;
+
+Result<void> run(const cli::Options& options) {
+  switch (options.command) {
+    case cli::Command::make:
+      return cli::run_make(options);
+    case cli::Command::render:
+      return cli::run_render(options);
+    case cli::Command::info:
+      return cli::run_info(options);
+    case cli::Command::import:
+      return cli::run_import(options);
+    case cli::Command::stats:
+      return cli::run_stats(options);
+    case cli::Command::species_list:
+    case cli::Command::species_show:
+      return cli::run_species(options);
+    case cli::Command::none:
+      break;
+  }
+  return Error{"nothing to do; try bosquet --help"};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const cli::ParsedLine line = cli::parse_command_line(argc, argv);
+    if (line.exit_status) return *line.exit_status;
+    const Result<void> done = run(line.options);
+    if (done) return 0;
+    fmt::print(stderr, "bosquet: {}\n", done.error().message);
+    return done.error().kind == ErrorKind::input ? 1 : 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "bosquet: out of memory; ask for fewer trees, larger voxels (voxel_m) or fewer triangles\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "bosquet: unexpected failure: {}\n", e.what());
+  }
+  return 2;
+}

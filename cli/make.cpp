@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "cli/commands.h"
+#include "cli/grown.h"
+#include "cli/picture.h"
+#include "cli/progress_display.h"
+#include "cli/version.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "crowns/vdb.h"
+#include "exchange/gltf_writer.h"
+#include "exchange/schedule.h"
+#include "scene/model_builder.h"
+
+namespace bosquet::cli {
+namespace {
+
+using std::filesystem::path;
+
+// Everything a writer may need of a run.
+struct Made {
+  const scene::GrownScene& grown;
+  const scene::BuiltModel& built;
+  const Options& options;
+  Progress& progress;
+};
+using Writer = Result<std::uint64_t> (*)(const Made&, const path&);
+
+Result<std::uint64_t> write_model(const Made& made, const path& target) {
+  const exchange::TextureCache cache = exchange::TextureCache::of_user();
+  exchange::GltfOptions options;
+  options.version = kVersion;
+  options.textures = &cache;
+  options.progress = &made.progress;
+  return exchange::write_gltf(made.built.model, target, options);
+}
+
+Result<std::uint64_t> write_png(const Made& made, const path& target) {
+  made.progress.begin("picture", 1);
+  if (auto drawn = write_picture(made.built.model, made.grown.document, made.options, target); !drawn)
+    return drawn.error();
+  return std::filesystem::file_size(target);
+}
+
+Result<std::uint64_t> write_csv(const Made& made, const path& target) {
+  std::vector<exchange::ScheduleRow> rows;
+  const scene::Document& document = made.grown.document;
+  for (std::size_t i = 0; i < made.grown.trees.size(); ++i) {
+    const scene::Tree& tree = (*document.trees)[i];
+    const scene::Species& species = document.species_of(tree);
+    const growth::Measures& m = made.grown.trees[i].measures;
+    rows.push_back({static_cast<std::uint64_t>(tree.id),
+                    species.common_names.empty() ? species.name : species.common_names.front(), species.botanical_name,
+                    DVec2(tree.at), m.height_m, m.trunk_diameter_m, m.crown_diameter_m, tree.inventory_name});
+  }
+  return exchange::write_schedule(target, rows);
+}
+
+Result<std::uint64_t> write_voxels(const Made& made, const path& target) {
+  std::vector<std::pair<std::int32_t, std::string>> names;
+  for (const scene::Tree& tree : *made.grown.document.trees)
+    names.emplace_back(tree.id, fmt::format("{}-{}", made.grown.document.species_of(tree).name, tree.id));
+  if (auto done = crowns::write_vdb(crowns::build_grid(made.grown.space), target, names); !done) return done.error();
+  return std::filesystem::file_size(target);
+}
+
+struct Format {
+  std::string_view ending;
+  Writer write;
+  bool model;  ///< needs meshes
+};
+constexpr Format kFormats[] = {{".glb", write_model, true},
+                               {".gltf", write_model, true},
+                               {".png", write_png, true},
+                               {".csv", write_csv, false},
+                               {".vdb", write_voxels, false}};
+
+const Format* format_of(const path& target) {
+  const std::string ending = target.extension().string();
+  const auto found =
+      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.ending == ending; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+// What can be known to fail is refused before anything grows.
+Result<void> check_target(const path& target, bool picture_only) {
+  if (picture_only ? target.extension() != ".png" : !format_of(target))
+    return Error{fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(), target.extension().string(),
+                             picture_only ? ".png" : ".glb .gltf .png .csv .vdb")};
+  const path folder = target.has_parent_path() ? target.parent_path() : path(".");
+  std::error_code ec;
+  if (!std::filesystem::is_directory(folder, ec))
+    return Error{fmt::format("{}: the folder {} does not exist; make it first", target.string(), folder.string())};
+  if (std::filesystem::is_directory(target, ec))
+    return Error{fmt::format("{}: is a folder, not a file", target.string())};
+  return {};
+}
+
+Result<void> check_targets(const Options& options, bool picture_only) {
+  for (const path& target : options.outputs)
+    if (auto fine = check_target(target, picture_only); !fine) return fine;
+  if (!options.report.empty()) {
+    const path folder = options.report.has_parent_path() ? options.report.parent_path() : path(".");
+    std::error_code ec;
+    if (!std::filesystem::is_directory(folder, ec))
+      return Error{
+          fmt::format("{}: the folder {} does not exist; make it first", options.report.string(), folder.string())};
+  }
+  return {};
+}
+
+bool grows_meshes(const Options& options) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), [](const path& p) { return format_of(p)->model; });
+}
+
+Result<void> make(const Options& options, Report& report, Progress& progress) {
+  Stopwatch total;
+  auto grown = grow_recipe(options, report, progress);
+  if (!grown) return grown.error();
+
+  scene::BuiltModel built;
+  const bool plain_view = options.command == Command::render && options.view != ViewKind::trees;
+  if (plain_view) {
+    auto view = view_model(*grown, options);
+    if (!view) return view.error();
+    built.model = std::move(*view);
+  } else if (grows_meshes(options)) {
+    scene::ModelOptions model{options.season, options.foliage,
+                              options.max_triangles.value_or(grown->document.max_triangles)};
+    auto meshes = scene::build_model(*grown, model, &progress);
+    if (!meshes) return meshes.error();
+    built = std::move(*meshes);
+  }
+  report.leaves = built.leaf_cards;
+  report.triangles = built.triangles;
+  report.seconds.insert(built.seconds.begin(), built.seconds.end());
+
+  Stopwatch exporting;
+  const Made made{*grown, built, options, progress};
+  for (const path& target : options.outputs) {
+    auto bytes = format_of(target)->write(made, target);
+    if (!bytes) return bytes.error();
+    report.bytes.emplace_back(target.string(), *bytes);
+    if (progress.cancelled()) return cannot_finish("cancelled");
+  }
+  report.seconds["export"] = exporting.seconds();
+  report.seconds["total"] = total.seconds();
+  report.threads = working_threads();
+  return {};
+}
+
+std::string readable_bytes(std::uint64_t bytes) {
+  return bytes >= 1'000'000 ? fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6)
+                            : fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+}
+
+Result<void> make_and_report(const Options& options) {
+  if (auto fine = check_targets(options, options.command == Command::render); !fine) return fine;
+  Report report;
+  Progress progress;
+  Result<void> done;
+  {
+    ProgressDisplay display(progress, options.quiet);
+    run_with_threads(options.threads, [&] { done = make(options, report, progress); });
+  }
+  print_warnings(report.warnings, options.quiet);
+  if (!done) return done;
+  if (!options.report.empty())
+    if (auto written = write_report(options.report, report); !written) return written;
+  if (!options.quiet) {
+    fmt::print("{} trees, {} internodes, {} triangles in {:.1f} s\n", report.trees, report.internodes, report.triangles,
+               report.seconds["total"]);
+    for (const auto& [output, bytes] : report.bytes) fmt::print("{}  {}\n", output, readable_bytes(bytes));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_make(const Options& options) { return make_and_report(options); }
+Result<void> run_render(const Options& options) { return make_and_report(options); }
+
+}  // namespace bosquet::cli

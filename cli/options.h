@@ -1,0 +1,58 @@
+// Options: what the command line asked for, as plain values.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "geometry/season.h"
+#include "geometry/tree_mesh.h"
+#include "scene/grown_scene.h"
+
+namespace bosquet::cli {
+
+enum class Command { none, make, render, info, import, stats, species_list, species_show };
+
+enum class ViewKind { trees, shapes, regions, arrows, plan };
+
+struct Options {
+  Command command = Command::none;
+  std::filesystem::path file;
+  std::vector<std::filesystem::path> outputs;
+  std::string species;
+
+  // Scene.
+  scene::GrowOptions grow;
+  geometry::Season season = geometry::Season::summer;
+  geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
+  std::optional<std::size_t> max_triangles;
+
+  // Picture.
+  ViewKind view = ViewKind::trees;
+  std::optional<float> slice_m;
+  std::string camera, sun;
+  int width = 1600, height = 900;
+
+  // Import.
+  std::filesystem::path dem, inventory;
+
+  // Common.
+  int threads = 0;
+  std::optional<std::uint64_t> seed;
+  std::filesystem::path report;
+  bool quiet = false, json = false, check = false;
+};
+
+/// What parsing led to: options to act on, or an exit status when everything is said (help, version, an error).
+struct ParsedLine {
+  Options options;
+  std::optional<int> exit_status;
+};
+
+/// Parses the command line; prints help, version and usage errors itself.
+ParsedLine parse_command_line(int argc, char** argv);
+
+}  // namespace bosquet::cli

@@ -1,0 +1,85 @@
+#include "cli/picture.h"
+
+#include <fmt/format.h>
+
+#include "exchange/image_file.h"
+#include "render/framing.h"
+#include "render/headless_context.h"
+#include "render/renderer.h"
+#include "render/sun_position.h"
+#include "scene/view_models.h"
+
+namespace bosquet::cli {
+namespace {
+
+// Height of the world that a plan shows, with a little margin round the site and its overhanging crowns.
+constexpr float kPlanMargin = 1.06f;
+
+bool from_above(ViewKind view) {
+  return view == ViewKind::plan || view == ViewKind::arrows || view == ViewKind::regions;
+}
+
+render::View plan_view(const scene::Model& model, const Options& options) {
+  const Box3 box = render::bounds(model);
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  render::View view;
+  const Vec3 centre = box.centre();
+  view.camera.target = centre;
+  // North must be up in the picture: looking almost straight down from very slightly south of the centre.
+  view.camera.eye = centre + Vec3(0.0f, 1000.0f, 0.01f);
+  view.orthographic_height_m = kPlanMargin * std::max(box.size().z, box.size().x / aspect);
+  view.shading = render::Shading::flat;
+  view.sky = false;
+  return view;
+}
+
+}  // namespace
+
+Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
+                           const std::filesystem::path& target) {
+  const bool plan = options.command == Command::render && from_above(options.view);
+  render::View view;
+  if (plan) {
+    view = plan_view(model, options);
+  } else if (!options.camera.empty()) {
+    auto camera = render::camera_from_text(options.camera, model);
+    if (!camera) return camera.error();
+    view.camera = *camera;
+  } else if (!model.cameras.empty()) {
+    view.camera = model.cameras.front();
+  } else {
+    view.camera =
+        render::frame(render::bounds(model), static_cast<float>(options.width) / static_cast<float>(options.height));
+  }
+  view.width = options.width;
+  view.height = options.height;
+  if (!options.sun.empty()) {
+    auto sun = render::sun_from_text(options.sun, {document.place.latitude_deg, document.place.longitude_deg, {}});
+    if (!sun) return sun.error();
+    view.sun = *sun;
+  }
+
+  auto context = render::HeadlessContext::create();
+  if (!context) return context.error();
+  auto renderer = render::Renderer::create();
+  if (!renderer) return renderer.error();
+  if (auto uploaded = renderer->upload(model); !uploaded) return uploaded;
+  auto image = renderer->draw(view);
+  if (!image) return image.error();
+  return exchange::write_image(target, *image);
+}
+
+Result<scene::Model> view_model(const scene::GrownScene& grown, const Options& options) {
+  switch (options.view) {
+    case ViewKind::shapes:
+      return scene::shapes_model(grown);
+    case ViewKind::regions:
+      return scene::regions_model(grown, options.slice_m);
+    case ViewKind::arrows:
+      return scene::arrows_model(grown);
+    default:
+      return scene::plan_model(grown);
+  }
+}
+
+}  // namespace bosquet::cli

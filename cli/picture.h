@@ -1,0 +1,21 @@
+// Picture: a model drawn without a window into a .png.
+#pragma once
+
+#include <filesystem>
+
+#include "cli/options.h"
+#include "core/result.h"
+#include "scene/grown_scene.h"
+#include "scene/model.h"
+
+namespace bosquet::cli {
+
+/// Draws by the options' camera, sun and size. Without --camera: the recipe's first camera, else the whole site from
+/// the south at 30 degrees.
+Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
+                           const std::filesystem::path& target);
+
+/// The model of a view other than trees: shapes, regions, arrows or plan.
+Result<scene::Model> view_model(const scene::GrownScene& grown, const Options& options);
+
+}  // namespace bosquet::cli

@@ -1,0 +1,29 @@
+// Report: what a run made and what it cost, as JSON for scripts.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/grown_scene.h"
+
+namespace bosquet::cli {
+
+struct Report {
+  std::size_t trees = 0, internodes = 0, leaves = 0, voxels = 0, triangles = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> bytes;  ///< by output
+  int threads = 1;                                           ///< that really worked
+  std::uint64_t seed = 0;
+  std::uint64_t skeleton_digest = 0;
+  scene::Seconds seconds;
+  std::vector<std::string> warnings;
+};
+
+/// Peak resident memory of this process in megabytes.
+double peak_rss_mb();
+
+Result<void> write_report(const std::filesystem::path& path, const Report& report);
+
+}  // namespace bosquet::cli

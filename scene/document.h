@@ -1,0 +1,64 @@
+// Document: a site, its species and its trees as one value.
+//
+// Model     parts are shared and immutable: a copy costs a few pointers, an edit replaces the part that it touches. All
+//           that can be computed (regions, skeletons, meshes) is not in it.
+// Frame     plan (east, north) metres from the site's south-west corner
+// Identity  a tree's `id` names it (nodes, grids) and is never reused; its `key` feeds its random streams and settles
+//           ties, so adding or removing one tree changes no other
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "crowns/asymmetry.h"
+#include "crowns/crown_space.h"
+#include "scene/model.h"
+#include "scene/species.h"
+#include "terrain/terrain.h"
+
+namespace bosquet::scene {
+
+struct Tree {
+  std::int32_t id = 0;  ///< 1, 2, ...
+  std::uint64_t key = 0;
+  std::size_t species = 0;  ///< index into Document::species
+  Vec2 at{0.0f};            ///< plan
+  float scale_height = 1.0f, scale_width = 1.0f;
+  std::optional<float> trunk_diameter_m;  ///< given at 1.3 m; missing: as thick as it grows
+  std::string inventory_name;             ///< what an inventory called its kind
+  std::string inventory_id;
+};
+
+/// Where the site lies on earth.
+struct Georeference {
+  double latitude_deg = 50.0, longitude_deg = 10.0;  ///< for the sun
+  DVec2 south_west{0.0};                             ///< projected coordinates of the site's corner
+  std::string crs_wkt;                               ///< empty when unknown
+};
+
+struct Document {
+  std::uint64_t seed = 1;
+  Georeference place;
+  std::shared_ptr<const terrain::Terrain> terrain;
+  std::vector<std::shared_ptr<const Species>> species;
+  std::shared_ptr<const std::vector<Tree>> trees;
+  crowns::SpaceOptions space;
+  crowns::AsymmetryOptions asymmetry;
+  std::vector<Camera> cameras;
+  Sun sun;
+  std::size_t max_triangles = 3'000'000;  ///< of an export; 0 is no limit
+
+  const Species& species_of(const Tree& tree) const { return *species[tree.species]; }
+  /// Height at which the tree stops growing.
+  float mature_height_m(const Tree& tree) const { return tree.scale_height * species_of(tree).shape.mature_height_m; }
+};
+
+/// Scales and trunk of a tree from what was measured of it; what is missing follows the species' open-grown allometry.
+/// Sizes beyond the mature species are allowed up to twice its size, the rest is cut to that.
+void set_measured_size(Tree& tree, const Species& species, std::optional<float> height_m,
+                       std::optional<float> trunk_diameter_m, std::optional<float> crown_diameter_m);
+
+}  // namespace bosquet::scene

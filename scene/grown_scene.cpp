@@ -1,0 +1,117 @@
+#include "scene/grown_scene.h"
+
+#include <fmt/format.h>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "crowns/asymmetry.h"
+#include "growth/age.h"
+#include "growth/digest.h"
+#include "growth/grow.h"
+#include "growth/radii.h"
+
+namespace bosquet::scene {
+namespace {
+
+// Work grows about with the number of internodes, that is with crown volume over spacing; height to the square does.
+float growth_cost(const Document& document, const Tree& tree) {
+  const float h = document.mature_height_m(tree) / document.species_of(tree).growth.internode_length_m;
+  return h * h;
+}
+
+GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::CrownRegion* region,
+                    const Vec3& asymmetry, const GrowOptions& options, const Progress* progress, std::string& warning) {
+  const Species& species = document.species_of(tree);
+  growth::GrowthInput input;
+  input.parameters = &species.growth;
+  input.max_height_m = document.mature_height_m(tree);
+  input.region = region;
+  input.asymmetry = asymmetry;
+  input.detail = options.detail;
+  input.seed = document.seed;
+  input.key = tree.key;
+
+  growth::Skeleton skeleton = growth::grow(input, progress);
+  GrownTree grown;
+  grown.asymmetry = asymmetry;
+  if (progress && progress->cancelled()) return grown;
+  if (tree.trunk_diameter_m)
+    if (auto done = growth::constrain_trunk(skeleton, *tree.trunk_diameter_m); !done)
+      warning = fmt::format("tree {} ({}): {}", tree.id, species.name, done.error().message);
+
+  // A tree of scale S is a tree on its way to the species' height, so its age follows from its own height.
+  const float share = std::min(1.0f, tree.scale_height);
+  grown.age_years = growth::age_at_height_share(species.growth, std::min(share, 0.95f));
+  if (options.year) {
+    const float height = growth::height_share_at_age(species.growth, *options.year) * input.max_height_m;
+    grown.season = growth::season_at_height(skeleton, height);
+    grown.age_years = *options.year;
+  }
+  grown.measures = growth::measure(skeleton, grown.season);
+  grown.skeleton = std::make_shared<const growth::Skeleton>(std::move(skeleton));
+  return grown;
+}
+
+}  // namespace
+
+std::size_t GrownScene::internodes() const {
+  std::size_t sum = 0;
+  for (const GrownTree& tree : trees) sum += static_cast<std::size_t>(tree.measures.internodes);
+  return sum;
+}
+
+std::uint64_t GrownScene::skeleton_digest() const {
+  Hasher hasher;
+  for (const GrownTree& tree : trees) hasher.add(growth::digest(*tree.skeleton));
+  return hasher.digest();
+}
+
+std::vector<crowns::Claimant> claimants(const Document& document) {
+  std::vector<crowns::Claimant> claims;
+  claims.reserve(document.trees->size());
+  for (const Tree& tree : *document.trees)
+    claims.push_back({tree.key, tree.id, tree.at, document.terrain->ground(tree.at), document.species_of(tree).shape,
+                      tree.scale_height, tree.scale_width});
+  return claims;
+}
+
+Result<GrownScene> grow_scene(const Document& document, const GrowOptions& options, Progress* progress) {
+  GrownScene scene;
+  scene.document = document;
+  const std::vector<Tree>& trees = *document.trees;
+  const Error cancelled = cannot_finish("cancelled; nothing was written");
+
+  Stopwatch watch;
+  std::vector<Vec3> asymmetry(trees.size(), Vec3(0.0f));
+  if (options.regions || options.asymmetry) {
+    if (progress) progress->begin("crown regions", 0);
+    auto space = crowns::divide_space(claimants(document), *document.terrain, document.space, progress);
+    if (!space) return space.error();
+    scene.space = std::move(*space);
+    if (options.asymmetry) asymmetry = crowns::neighbourhood_asymmetry(scene.space, document.asymmetry);
+  }
+  scene.seconds["crowns"] = watch.restart();
+  if (progress && progress->cancelled()) return cancelled;
+
+  std::vector<float> costs;
+  for (const Tree& tree : trees) costs.push_back(growth_cost(document, tree));
+  scene.trees.resize(trees.size());
+  std::vector<std::string> warnings(trees.size());
+  if (progress) progress->begin("trees", trees.size());
+  parallel_dearest_first(costs, [&](std::size_t i) {
+    if (progress && progress->cancelled()) return;
+    crowns::CrownRegion region;
+    if (options.regions) region = crowns::region(scene.space, i);
+    scene.trees[i] = grow_tree(document, trees[i], options.regions ? &region : nullptr, asymmetry[i], options, progress,
+                               warnings[i]);
+    if (progress) progress->advance();
+  });
+  if (progress && progress->cancelled()) return cancelled;
+  for (std::string& warning : warnings)
+    if (!warning.empty()) scene.warnings.push_back(std::move(warning));
+  scene.seconds["growth"] = watch.restart();
+  return scene;
+}
+
+}  // namespace bosquet::scene

@@ -1,0 +1,57 @@
+// Grown scene: a document with everything its trees have become.
+//
+// Model     divide_space, asymmetry, then every tree grown alone and in parallel (Longay 2014, 6.1); the stages of the
+//           source's comparisons can be switched off one by one
+// Holds     the same document and options give the same skeletons for any number of threads
+// Errors    a crown space too large for memory; cancelled work (kind cannot_finish)
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "crowns/crown_space.h"
+#include "growth/measure.h"
+#include "growth/skeleton.h"
+#include "scene/document.h"
+
+namespace bosquet::scene {
+
+struct GrowOptions {
+  bool regions = true;        ///< trees keep to their crown regions
+  bool asymmetry = true;      ///< trees lean away from their neighbours
+  float detail = 1.0f;        ///< internodes are this many times shorter
+  std::optional<float> year;  ///< show every tree at this age; missing: at its final height
+};
+
+struct GrownTree {
+  std::shared_ptr<const growth::Skeleton> skeleton;
+  int season = -1;            ///< the last season shown; -1 all of them
+  growth::Measures measures;  ///< at that season
+  float age_years = 0;        ///< by the species' height curve
+  Vec3 asymmetry{0.0f};
+};
+
+/// Seconds spent in each stage, by name.
+using Seconds = std::map<std::string, double>;
+
+struct GrownScene {
+  Document document;
+  crowns::CrownSpace space;
+  std::vector<GrownTree> trees;  ///< in the document's order
+  Seconds seconds;               ///< "crowns", "growth"
+  std::vector<std::string> warnings;
+
+  std::size_t internodes() const;         ///< living
+  std::uint64_t skeleton_digest() const;  ///< over all skeletons, in the document's order
+};
+
+/// The trees as crowns/ sees them, in the document's order.
+std::vector<crowns::Claimant> claimants(const Document& document);
+
+Result<GrownScene> grow_scene(const Document& document, const GrowOptions& options, Progress* progress);
+
+}  // namespace bosquet::scene

@@ -1,0 +1,249 @@
+#include "scene/model_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "geometry/bark_texture.h"
+#include "geometry/ground_mesh.h"
+#include "geometry/ground_texture.h"
+#include "geometry/leaf_atlas.h"
+#include "growth/radii.h"
+
+namespace bosquet::scene {
+namespace {
+
+constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
+constexpr std::size_t kMostGroundTriangles = 200'000;
+// Seed of the textures: a species looks the same in every document.
+constexpr std::uint64_t kTextureSeed = 1;
+// The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.
+constexpr float kNearest_m = 8.0f;
+
+std::shared_ptr<const Image> shared(Image image) { return std::make_shared<const Image>(std::move(image)); }
+
+// Materials 2s and 2s + 1 are bark and leaf of species s; then ground and water.
+std::vector<Material> make_materials(const Document& document, geometry::Season season) {
+  const std::size_t n = document.species.size();
+  std::vector<Material> materials(2 * n + 2);
+  parallel_for(2 * n + 1, [&](std::size_t job) {
+    Material& material = materials[job];
+    if (job == 2 * n) {
+      auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
+      material = {.name = "ground",
+                  .surface = Surface::ground,
+                  .base_colour = shared(std::move(textures.base_colour)),
+                  .normal = shared(std::move(textures.normal))};
+      return;
+    }
+    const Species& species = *document.species[job / 2];
+    const std::uint64_t seed = kTextureSeed + hash_text(species.name);
+    if (job % 2 == 0) {
+      auto textures = geometry::make_bark(species.look, seed, kBarkPixels);
+      material = {.name = species.name + "-bark",
+                  .surface = Surface::bark,
+                  .base_colour = shared(std::move(textures.base_colour)),
+                  .normal = shared(std::move(textures.normal)),
+                  .roughness = 0.9f};
+    } else {
+      auto atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
+      material = {.name = species.name + "-leaf",
+                  .surface = Surface::leaf,
+                  .base_colour = shared(std::move(atlas.base_colour)),
+                  .normal = shared(std::move(atlas.normal)),
+                  .roughness = 0.7f,
+                  .alpha_cutoff = 0.5f,
+                  .translucency = species.look.leaf.translucency,
+                  .mask = true,
+                  .double_sided = true};
+    }
+  });
+  Material& water = materials[2 * n + 1];
+  water.name = "water";
+  water.surface = Surface::water;
+  water.base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
+  water.roughness = 0.08f;
+  return materials;
+}
+
+// How much of each square metre lies under crowns, for the colour of the ground.
+std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
+  const Vec2 size = scene.document.terrain->size_m();
+  const float cell = std::max(1.0f, std::max(size.x, size.y) / 2048.0f);
+  const IVec2 cells(static_cast<int>(size.x / cell) + 1, static_cast<int>(size.y / cell) + 1);
+  auto cover =
+      std::make_shared<std::vector<float>>(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y), 0.0f);
+  for (std::size_t t = 0; t < scene.trees.size(); ++t) {
+    const Vec2 at = (*scene.document.trees)[t].at;
+    const float radius = std::max(0.5f, 0.55f * scene.trees[t].measures.crown_diameter_m);
+    const IVec2 low = glm::max(IVec2((at - radius) / cell), IVec2(0)),
+                high = glm::min(IVec2((at + radius) / cell), cells - 1);
+    for (int j = low.y; j <= high.y; ++j)
+      for (int i = low.x; i <= high.x; ++i) {
+        const float d = glm::length((Vec2(i, j) + 0.5f) * cell - at) / radius;
+        float& c =
+            (*cover)[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(i)];
+        c = std::max(c, std::clamp(1.3f * (1.0f - d * d), 0.0f, 1.0f));
+      }
+  }
+  return [cover, cells, cell](Vec2 plan) {
+    const IVec2 c = glm::clamp(IVec2(plan / cell), IVec2(0), cells - 1);
+    return (*cover)[static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(c.x)];
+  };
+}
+
+float camera_distance(const Document& document, const Vec3& at) {
+  float nearest = std::numeric_limits<float>::max();
+  for (const Camera& camera : document.cameras) nearest = std::min(nearest, glm::length(camera.eye - at));
+  return document.cameras.empty() ? 1.0f : std::max(nearest, kNearest_m);
+}
+
+Extras tree_extras(const Document& document, const Tree& tree, const GrownTree& grown) {
+  const Species& species = document.species_of(tree);
+  Extras extras{{"species", species.name},
+                {"botanical_name", species.botanical_name},
+                {"id", static_cast<double>(tree.id)},
+                {"east_m", static_cast<double>(tree.at.x)},
+                {"north_m", static_cast<double>(tree.at.y)},
+                {"height_m", static_cast<double>(grown.measures.height_m)},
+                {"trunk_diameter_m", static_cast<double>(grown.measures.trunk_diameter_m)},
+                {"crown_diameter_m", static_cast<double>(grown.measures.crown_diameter_m)},
+                {"crown_base_m", static_cast<double>(grown.measures.crown_base_m)},
+                {"age_years", static_cast<double>(grown.age_years)}};
+  if (!tree.inventory_name.empty()) extras.emplace_back("inventory_name", tree.inventory_name);
+  if (!tree.inventory_id.empty()) extras.emplace_back("inventory_id", tree.inventory_id);
+  return extras;
+}
+
+Extras scene_extras(const Document& document) {
+  const Vec2 size = document.terrain->size_m();
+  Extras extras{{"site_east_m", static_cast<double>(size.x)},  {"site_north_m", static_cast<double>(size.y)},
+                {"seed", std::to_string(document.seed)},       {"trees", static_cast<double>(document.trees->size())},
+                {"south_west_x", document.place.south_west.x}, {"south_west_y", document.place.south_west.y}};
+  if (!document.place.crs_wkt.empty()) extras.emplace_back("crs_wkt", document.place.crs_wkt);
+  return extras;
+}
+
+Node mesh_node(std::string name, TriangleMesh mesh, std::size_t material) {
+  Node node;
+  node.name = std::move(name);
+  node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh)), material});
+  return node;
+}
+
+}  // namespace
+
+std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, const std::vector<float>& weight,
+                                       std::size_t budget) {
+  const std::size_t all = std::accumulate(need.begin(), need.end(), std::size_t{0});
+  if (all <= budget) return need;
+  auto share = [&](double c, std::size_t i) {
+    return std::min(
+        need[i], std::max(geometry::kLeastTreeTriangles, static_cast<std::size_t>(c * static_cast<double>(weight[i]))));
+  };
+  auto sum = [&](double c) {
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < need.size(); ++i) total += share(c, i);
+    return total;
+  };
+  // sum() never falls with c: bisect for the largest c that keeps to the budget.
+  double low = 0.0, high = 1.0;
+  while (sum(high) <= budget && high < 1e18) high *= 4.0;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    (sum(middle) <= budget ? low : high) = middle;
+  }
+  std::vector<std::size_t> shares(need.size());
+  for (std::size_t i = 0; i < need.size(); ++i) shares[i] = share(low, i);
+  return shares;
+}
+
+Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& options, Progress* progress) {
+  const Document& document = scene.document;
+  const std::vector<Tree>& trees = *document.trees;
+  BuiltModel built;
+  Model& model = built.model;
+
+  Stopwatch watch;
+  if (progress) progress->begin("textures", 0);
+  model.materials = make_materials(document, options.season);
+  const std::size_t ground_material = 2 * document.species.size(), water_material = ground_material + 1;
+  built.seconds["textures"] = watch.restart();
+
+  geometry::GroundOptions ground_options;
+  ground_options.max_triangles = kMostGroundTriangles;
+  if (options.max_triangles > 0)
+    ground_options.max_triangles = std::clamp<std::size_t>(
+        static_cast<std::size_t>(kGroundShare * static_cast<float>(options.max_triangles)), 2, kMostGroundTriangles);
+  ground_options.shade = crown_cover(scene);
+  std::vector<TriangleMesh> chunks = geometry::mesh_ground(*document.terrain, ground_options);
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    built.triangles += chunks[c].triangles();
+    model.nodes.push_back(mesh_node(chunks.size() == 1 ? "ground" : fmt::format("ground-{}", c + 1),
+                                    std::move(chunks[c]), ground_material));
+  }
+  if (TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options); !water.empty()) {
+    built.triangles += water.triangles();
+    model.nodes.push_back(mesh_node("water", std::move(water), water_material));
+  }
+
+  // What each tree is drawn with, and what its full mesh needs.
+  std::vector<std::vector<float>> radii(trees.size());
+  std::vector<geometry::MeshOptions> mesh_options(trees.size());
+  std::vector<std::size_t> need(trees.size());
+  std::vector<float> weight(trees.size());
+  parallel_for(trees.size(), [&](std::size_t i) {
+    const GrownTree& grown = scene.trees[i];
+    const Species& species = document.species_of(trees[i]);
+    radii[i] = grown.season < 0 ? grown.skeleton->radius : growth::radii(*grown.skeleton, grown.season);
+    mesh_options[i] = {grown.season, options.season, options.foliage, 0, document.seed, trees[i].key};
+    need[i] =
+        geometry::estimate_triangles(*grown.skeleton, radii[i], species.look, species.foliage, mesh_options[i]) * 3 / 2;
+    const Vec3 base = to_world(trees[i].at, document.terrain->ground(trees[i].at));
+    const float apparent = grown.measures.height_m / camera_distance(document, base);
+    weight[i] = apparent * apparent;
+  });
+  std::vector<std::size_t> budget(trees.size(), 0);
+  if (options.max_triangles > 0)
+    budget = divide_budget(need, weight, options.max_triangles - std::min(options.max_triangles, built.triangles));
+
+  if (progress) progress->begin("meshes", trees.size());
+  std::vector<Node> nodes(trees.size());
+  std::vector<std::size_t> cards(trees.size());
+  std::vector<float> costs(need.begin(), need.end());
+  parallel_dearest_first(costs, [&](std::size_t i) {
+    if (progress && progress->cancelled()) return;
+    const Species& species = document.species_of(trees[i]);
+    mesh_options[i].max_triangles = budget[i];
+    geometry::TreeMesh mesh =
+        geometry::build_tree_mesh(*scene.trees[i].skeleton, radii[i], species.look, species.foliage, mesh_options[i]);
+    cards[i] = mesh.leaves.triangles() /
+               std::max<std::size_t>(1, geometry::triangles_per_site(species.foliage, options.foliage));
+    Node& node = nodes[i];
+    node.name = fmt::format("{}-{}", species.name, trees[i].id);
+    node.translation = to_world(trees[i].at, document.terrain->ground(trees[i].at));
+    node.extras = tree_extras(document, trees[i], scene.trees[i]);
+    if (!mesh.branches.empty())
+      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.branches)), 2 * trees[i].species});
+    if (!mesh.leaves.empty())
+      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.leaves)), 2 * trees[i].species + 1});
+    if (progress) progress->advance();
+  });
+  if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    built.leaf_cards += cards[i];
+    for (const Part& part : nodes[i].parts) built.triangles += part.mesh->triangles();
+    model.nodes.push_back(std::move(nodes[i]));
+  }
+  model.cameras = document.cameras;
+  model.sun = document.sun;
+  model.extras = scene_extras(document);
+  built.seconds["geometry"] = watch.restart();
+  return built;
+}
+
+}  // namespace bosquet::scene

@@ -1,0 +1,42 @@
+// Model builder: meshes, materials and cameras of a grown scene, within a triangle budget.
+//
+// Model     ground and water take at most kGroundShare of the budget, the trees share the rest: each tree asks for what
+//           its full mesh needs, and when that is too much every tree gets c * w, w = (height / distance to the nearest
+//           camera of the recipe)^2 (or height^2 without cameras), never more than it asks for, c such that the sum is
+//           the budget
+// Units     metres, world frame; extras in metres, years and degrees
+// Holds     the same bits for any number of threads
+// Errors    cancelled (kind cannot_finish)
+#pragma once
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "geometry/season.h"
+#include "geometry/tree_mesh.h"
+#include "scene/grown_scene.h"
+#include "scene/model.h"
+
+namespace bosquet::scene {
+
+inline constexpr float kGroundShare = 0.08f;
+
+struct ModelOptions {
+  geometry::Season season = geometry::Season::summer;
+  geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
+  std::size_t max_triangles = 3'000'000;  ///< 0: no limit
+};
+
+struct BuiltModel {
+  Model model;
+  Seconds seconds;             ///< "geometry", "textures"
+  std::size_t leaf_cards = 0;  ///< leaves or leafed twigs in the meshes
+  std::size_t triangles = 0;
+};
+
+Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& options, Progress* progress);
+
+/// Triangles for each tree: min(need, c * weight) with the sum not above `budget`, and all of `need` when it fits.
+std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, const std::vector<float>& weight,
+                                       std::size_t budget);
+
+}  // namespace bosquet::scene

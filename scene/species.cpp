@@ -1,0 +1,74 @@
+#include "scene/species.h"
+
+#include <fmt/format.h>
+
+#include "scene/builtin_species.h"
+
+namespace bosquet::scene {
+namespace {
+
+Result<Species> finish_species(const TomlFile& file, Species species, const std::string& source) {
+  if (auto read = file.check(); !read) return read.error();
+  if (species.name.empty()) return Error{fmt::format("{}: the key 'name' is missing", source)};
+  if (species.shape.trunk_height_m >= species.shape.mature_height_m)
+    return Error{fmt::format("{}: [shape] trunk_height_m = {:g} must be below mature_height_m = {:g}", source,
+                             species.shape.trunk_height_m, species.shape.mature_height_m)};
+  if (auto fine = growth::check(species.growth, fmt::format("{}: [growth]", source)); !fine) return fine.error();
+  return species;
+}
+
+Result<Species> species_from(const TomlFile& file, const std::string& source) {
+  Species species;
+  TomlTable root = file.root();
+  species.name = root.text("name").value_or("");
+  species.botanical_name = root.text("botanical_name").value_or("");
+  species.common_names = root.texts("common_names").value_or(std::vector<std::string>{});
+  species.genus_words = root.texts("genus_words").value_or(std::vector<std::string>{});
+  read_species_tables(root, species);
+  root.finish();
+  return finish_species(file, std::move(species), source);
+}
+
+}  // namespace
+
+void read_species_tables(TomlTable& table, Species& species) {
+  if (auto t = table.table("shape")) describe(species.shape, *t), t->finish();
+  if (auto t = table.table("planting")) describe(species.planting, *t), t->finish();
+  if (auto t = table.table("growth")) describe(species.growth, *t), t->finish();
+  if (auto t = table.table("look"))
+    describe(species.look, *t), geometry::describe_foliage(species.foliage, *t), t->finish();
+  if (auto t = table.table("allometry")) describe(species.allometry, *t), t->finish();
+}
+
+Result<Species> read_species_file(const std::filesystem::path& path) {
+  auto file = TomlFile::read(path);
+  if (!file) return file.error();
+  return species_from(*file, path.string());
+}
+
+std::vector<std::string> builtin_species_names() {
+  std::vector<std::string> names;
+  for (const BuiltinFile& file : kBuiltinSpecies) names.emplace_back(file.name);
+  return names;
+}
+
+std::string_view builtin_species_text(std::string_view name) {
+  for (const BuiltinFile& file : kBuiltinSpecies)
+    if (file.name == name) return file.text;
+  return {};
+}
+
+Result<Species> builtin_species(std::string_view name) {
+  const std::string_view text = builtin_species_text(name);
+  if (text.empty()) {
+    const std::vector<std::string> known = builtin_species_names();
+    const std::string near = nearest_name(name, known);
+    return Error{fmt::format("unknown species '{}'; {}built in are: {}", name,
+                             near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(known, ", "))};
+  }
+  auto file = TomlFile::parse(text, fmt::format("species {}", name));
+  if (!file) return file.error();
+  return species_from(*file, fmt::format("species {}", name));
+}
+
+}  // namespace bosquet::scene

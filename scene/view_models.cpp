@@ -1,0 +1,234 @@
+#include "scene/view_models.h"
+
+#include <algorithm>
+
+#include "core/hash.h"
+#include "geometry/ground_mesh.h"
+#include "geometry/ground_texture.h"
+
+namespace bosquet::scene {
+namespace {
+
+constexpr int kDiscSides = 32, kEllipsoidRings = 12;
+constexpr float kArrowWidth_m = 0.35f;
+// An asymmetry of length 1 is drawn as long as the tree's crown radius times this.
+constexpr float kArrowScale = 1.5f;
+
+Rgba8 colour(const Vec3& linear) {
+  return Rgba8(glm::vec<3, std::uint8_t>(glm::clamp(linear, 0.0f, 1.0f) * 255.0f + 0.5f), 255);
+}
+
+// Well separated hues from a hash, at even brightness.
+Vec3 hashed_colour(std::uint64_t key) {
+  const float h = static_cast<float>(mix_bits(key) >> 40) * 0x1p-24f * 6.0f;
+  const Vec3 rgb =
+      glm::clamp(Vec3(glm::abs(h - 3.0f) - 1.0f, 2.0f - glm::abs(h - 2.0f), 2.0f - glm::abs(h - 4.0f)), 0.0f, 1.0f);
+  return 0.15f + 0.55f * rgb;
+}
+
+void add_triangle_fan(TriangleMesh& mesh, const Vec3& centre, float radius, Rgba8 tint) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.push_back(centre);
+  for (int s = 0; s < kDiscSides; ++s) {
+    const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / kDiscSides);
+    mesh.positions.push_back(centre + radius * Vec3(a.cos, 0.0f, -a.sin));
+    const std::uint32_t next = first + 1 + static_cast<std::uint32_t>((s + 1) % kDiscSides);
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1 + static_cast<std::uint32_t>(s), next});
+  }
+  mesh.normals.resize(mesh.positions.size(), kUp);
+  mesh.colours.resize(mesh.positions.size(), tint);
+}
+
+// Corners counter-clockwise seen from above.
+void add_quad(TriangleMesh& mesh, const std::array<Vec3, 4>& corners, Rgba8 tint) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
+  mesh.normals.resize(mesh.positions.size(), kUp);
+  mesh.colours.resize(mesh.positions.size(), tint);
+  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+}
+
+// A surface of revolution about the vertical through `foot`, from (radius, height) pairs upward.
+void add_lathe(TriangleMesh& mesh, const Vec3& foot, const std::vector<Vec2>& profile, Rgba8 tint) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::size_t r = 0; r < profile.size(); ++r) {
+    const Vec2 along = profile[std::min(r + 1, profile.size() - 1)] - profile[r ? r - 1 : 0];
+    for (int s = 0; s < kDiscSides; ++s) {
+      const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / kDiscSides);
+      const Vec3 out(a.cos, 0.0f, -a.sin);
+      mesh.positions.push_back(foot + profile[r].x * out + Vec3(0.0f, profile[r].y, 0.0f));
+      const Vec3 normal = along.y * out - along.x * kUp;
+      mesh.normals.push_back(glm::dot(normal, normal) > 0.0f ? glm::normalize(normal) : kUp);
+      mesh.colours.push_back(tint);
+    }
+  }
+  for (std::uint32_t r = 0; r + 1 < profile.size(); ++r)
+    for (std::uint32_t s = 0; s < kDiscSides; ++s) {
+      const std::uint32_t t = (s + 1) % kDiscSides, a = first + r * kDiscSides;
+      mesh.indices.insert(mesh.indices.end(),
+                          {a + s, a + t, a + kDiscSides + t, a + s, a + kDiscSides + t, a + kDiscSides + s});
+    }
+}
+
+std::size_t add_material(Model& model, std::string name, Surface surface) {
+  Material material;
+  material.name = std::move(name);
+  material.surface = surface;
+  model.materials.push_back(std::move(material));
+  return model.materials.size() - 1;
+}
+
+void add_node(Model& model, std::string name, TriangleMesh mesh, std::size_t material) {
+  if (mesh.empty()) return;
+  Node node;
+  node.name = std::move(name);
+  node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh)), material});
+  model.nodes.push_back(std::move(node));
+}
+
+void add_ground(Model& model, const GrownScene& scene) {
+  Material ground;
+  ground.name = "ground";
+  ground.surface = Surface::ground;
+  ground.base_factor = Vec4(geometry::kGroundMean, 1.0f);  // the tints are relative to the texture's mean
+  model.materials.push_back(std::move(ground));
+  const std::size_t ground_material = model.materials.size() - 1;
+  for (TriangleMesh& chunk : geometry::mesh_ground(*scene.document.terrain, {}))
+    add_node(model, "ground", std::move(chunk), ground_material);
+  const std::size_t water = add_material(model, "water", Surface::water);
+  model.materials[water].base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
+  add_node(model, "water", geometry::mesh_water(*scene.document.terrain, {}), water);
+}
+
+// The site as a sheet, for views from above.
+TriangleMesh sheet(const GrownScene& scene, float y) {
+  const Vec2 size = scene.document.terrain->size_m();
+  TriangleMesh mesh;
+  add_quad(mesh, {to_world({0, 0}, y), to_world({size.x, 0}, y), to_world(size, y), to_world({0, size.y}, y)},
+           colour(Vec3(0.88f)));
+  return mesh;
+}
+
+float tallest_m(const GrownScene& scene) {
+  float tallest = 0;
+  for (const GrownTree& tree : scene.trees) tallest = std::max(tallest, tree.measures.height_m);
+  return tallest;
+}
+
+void add_crown_discs(Model& model, const GrownScene& scene, float y) {
+  const std::size_t flat = add_material(model, "plan", Surface::obstacle);
+  add_node(model, "site", sheet(scene, y), flat);
+  // Taller crowns over lower ones, each a little higher so that none flickers.
+  std::vector<std::size_t> order(scene.trees.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return scene.trees[a].measures.height_m < scene.trees[b].measures.height_m;
+  });
+  TriangleMesh discs;
+  float lift = 0.05f;
+  for (std::size_t i : order) {
+    const Tree& tree = (*scene.document.trees)[i];
+    const growth::Measures& m = scene.trees[i].measures;
+    const Vec3 tint = hashed_colour(hash_text(scene.document.species_of(tree).name));
+    add_triangle_fan(discs, to_world(tree.at + m.crown_centroid, y + lift), 0.5f * m.crown_diameter_m,
+                     colour(0.35f * tint));
+    add_triangle_fan(discs, to_world(tree.at + m.crown_centroid, y + lift + 0.02f), 0.47f * m.crown_diameter_m,
+                     colour(tint));
+    add_triangle_fan(discs, to_world(tree.at, y + lift + 0.04f), std::max(0.12f, 0.5f * m.trunk_diameter_m),
+                     colour(Vec3(0.02f)));
+    lift += 0.06f;
+  }
+  add_node(model, "crowns", std::move(discs), flat);
+}
+
+}  // namespace
+
+Result<Model> shapes_model(const GrownScene& scene) {
+  Model model;
+  model.cameras = scene.document.cameras;
+  model.sun = scene.document.sun;
+  add_ground(model, scene);
+  const std::size_t material = add_material(model, "shapes", Surface::obstacle);
+  TriangleMesh mesh;
+  for (const crowns::Claimant& claim : claimants(scene.document)) {
+    const Tree& tree = (*scene.document.trees)[static_cast<std::size_t>(claim.id - 1)];
+    const Vec3 foot = to_world(claim.base, claim.ground_y);
+    const float base = claim.scale_height * claim.shape.trunk_height_m,
+                half = 0.5f * claim.scale_height * claim.shape.crown_height_m();
+    const float trunk = claim.trunk_radius_m(), crown = claim.crown_radius_m();
+    add_lathe(mesh, foot, {{trunk, 0.0f}, {trunk, base + half}}, colour({0.18f, 0.13f, 0.09f}));
+    std::vector<Vec2> profile;
+    for (int r = 0; r <= kEllipsoidRings; ++r) {
+      const SinCos a = sin_cos(kPi * static_cast<float>(r) / kEllipsoidRings);
+      profile.emplace_back(crown * a.sin, base + half - half * a.cos);
+    }
+    add_lathe(mesh, foot, profile, colour(0.7f * hashed_colour(hash_text(scene.document.species_of(tree).name))));
+  }
+  add_node(model, "shapes", std::move(mesh), material);
+  return model;
+}
+
+Result<Model> regions_model(const GrownScene& scene, std::optional<float> height_m) {
+  if (scene.space.claimed_voxels() == 0)
+    return Error{"--view regions needs crown regions; they are off (--regions off) or no tree stands"};
+  const float ground = scene.document.terrain->height.range().low;
+  const float y = ground + height_m.value_or(tallest_m(scene) / 3.0f);
+  const Vec2 size = scene.document.terrain->size_m();
+  const Vec2 margin = 0.25f * size;
+  const crowns::SpaceSlice cut = crowns::slice(scene.space, y, Box2{-margin, size + margin});
+  Model model;
+  const std::size_t flat = add_material(model, "regions", Surface::obstacle);
+  add_node(model, "site", sheet(scene, y - 0.1f), flat);
+  TriangleMesh mesh;
+  for (std::int32_t j = 0; j < cut.height; ++j)
+    for (std::int32_t i = 0; i < cut.width;) {
+      // One quad for each run of a tree along a row.
+      auto id = [&](std::int32_t column) {
+        return cut
+            .ids[static_cast<std::size_t>(j) * static_cast<std::size_t>(cut.width) + static_cast<std::size_t>(column)];
+      };
+      std::int32_t end = i + 1;
+      while (end < cut.width && id(end) == id(i)) ++end;
+      if (id(i) > 0) {
+        const Vec2 low = cut.low + cut.voxel_m * Vec2(i, j), high = cut.low + cut.voxel_m * Vec2(end, j + 1);
+        add_quad(mesh,
+                 {to_world(low, y), to_world({high.x, low.y}, y), to_world(high, y), to_world({low.x, high.y}, y)},
+                 colour(hashed_colour(static_cast<std::uint64_t>(id(i)))));
+      }
+      i = end;
+    }
+  for (const Tree& tree : *scene.document.trees)
+    add_triangle_fan(mesh, to_world(tree.at, y + 0.1f), 0.2f, colour(Vec3(0.01f)));
+  add_node(model, "regions", std::move(mesh), flat);
+  return model;
+}
+
+Result<Model> plan_model(const GrownScene& scene) {
+  Model model;
+  add_crown_discs(model, scene, scene.document.terrain->height.range().high);
+  return model;
+}
+
+Result<Model> arrows_model(const GrownScene& scene) {
+  Model model;
+  const float y = scene.document.terrain->height.range().high;
+  add_crown_discs(model, scene, y);
+  const float top = y + 1.0f + 0.06f * static_cast<float>(scene.trees.size());
+  TriangleMesh arrows;
+  for (std::size_t i = 0; i < scene.trees.size(); ++i) {
+    const Vec3 v = scene.trees[i].asymmetry;
+    const float length = glm::length(v);
+    if (length < 1.0f / 64.0f) continue;
+    const Vec3 from = to_world((*scene.document.trees)[i].at, top), along = v / length;
+    const Vec3 left = kArrowWidth_m * Vec3(along.z, 0.0f, -along.x);  // along turned counter-clockwise seen from above
+    const Vec3 tip = from + kArrowScale * length * 0.5f * scene.trees[i].measures.crown_diameter_m * along;
+    const Rgba8 red = colour({0.75f, 0.03f, 0.02f});
+    add_quad(arrows, {from - 0.4f * left, tip - 0.4f * left, tip + 0.4f * left, from + 0.4f * left}, red);
+    add_quad(arrows, {tip - left, tip + 3.0f * kArrowWidth_m * along, tip + 3.0f * kArrowWidth_m * along, tip + left},
+             red);
+  }
+  add_node(model, "arrows", std::move(arrows), 0);
+  return model;
+}
+
+}  // namespace bosquet::scene

@@ -1,0 +1,27 @@
+// View models: what stands behind a grown scene, as meshes to look at.
+//
+// Views     shapes    the representative shapes that trees claim space with, on the ground
+//           regions   one layer of the crown space from above, a colour for each tree
+//           plan      crowns as grown, as discs coloured by species, with their trunks
+//           arrows    the plan with the neighbourhood asymmetry of each tree as an arrow
+// Frame     world; views from above are flat, at the height of the highest ground
+// Errors    regions and arrows need a scene that was grown with crown regions
+#pragma once
+
+#include <optional>
+
+#include "core/result.h"
+#include "scene/grown_scene.h"
+#include "scene/model.h"
+
+namespace bosquet::scene {
+
+Result<Model> shapes_model(const GrownScene& scene);
+
+/// `height_m` above the lowest ground; missing: a third of the tallest tree.
+Result<Model> regions_model(const GrownScene& scene, std::optional<float> height_m);
+
+Result<Model> plan_model(const GrownScene& scene);
+Result<Model> arrows_model(const GrownScene& scene);
+
+}  // namespace bosquet::scene
