@@ -135,6 +135,8 @@ class CrownSpace {
   /// Centroid of a share, plan metres.
   Vec2 centroid(const LayerShare& share) const;
 
+  std::size_t bytes() const;  ///< of the voxels
+
   /// Tiles that hold the space, sorted by (north, east).
   std::span<const std::shared_ptr<const SpaceTile>> tiles() const { return tiles_; }
   /// The tile with this index, or null.

@@ -1,0 +1,199 @@
+#include "crowns/propagation.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "core/scalar.h"
+#include "crowns/bucket_queue.h"
+
+namespace bosquet::crowns {
+namespace {
+
+constexpr std::uint32_t kEdge = 64, kBlock = kEdge * kEdge;
+constexpr double kTicksPerMetre = 0x1p40;  // of a front of 1 m2
+// Fine enough to measure a voxel with, and such that 2^17 columns fit 63 bits.
+constexpr double kLeastSlowness = 0x1p10, kMostSlowness = 0x1p46;
+// Units of the queue in the time that the fastest front takes for a column: a few entries each.
+constexpr int kUnitBits = 8;
+
+// A cell's state: settled by front f (f >= 0), closed, free, or taken for now by front f (encoded -2 - f).
+constexpr std::int32_t kClosed = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kOpen = -1;
+
+struct Cell {
+  std::uint64_t tick = 0;
+  float delay = 0;
+  std::int32_t state = kClosed;
+};
+
+class Layer {
+ public:
+  Layer(std::span<const Front> fronts, const LayerCells& cells)
+      : fronts_(fronts), blocks_(cells.blocks), queue_(unit_shift(fronts)) {
+    // One closed cell more, beyond every edge.
+    cells_.resize(cells.open.size() + 1);
+    beyond_ = static_cast<std::uint32_t>(cells.open.size());
+    for (std::size_t c = 0; c < cells.open.size(); ++c)
+      if (cells.open[c]) cells_[c].state = kOpen;
+    for (std::size_t f = 0; f < fronts.size(); ++f) start(static_cast<std::int32_t>(f));
+  }
+
+  void run() {
+    while (!queue_.empty()) {
+      const BucketQueue::Entry next = queue_.pop();
+      Cell& cell = cells_[next.cell];
+      if (cell.state <= -2) {
+        if (cell.tick != next.tick) continue;  // bettered since
+        cell.state = -2 - cell.state;
+      } else if (fronts_[static_cast<std::size_t>(cell.state)].root != next.cell) {
+        continue;  // settled already
+      }
+      spread(next.cell, cell);
+    }
+  }
+
+  LayerResult result() const {
+    LayerResult out;
+    out.front.resize(beyond_, LayerResult::kUnclaimed);
+    out.ticks.resize(beyond_, 0);
+    for (std::size_t c = 0; c < beyond_; ++c) {
+      if (cells_[c].state < 0 || cells_[c].state == kClosed) continue;
+      out.front[c] = cells_[c].state;
+      out.ticks[c] = cells_[c].tick;
+    }
+    return out;
+  }
+
+ private:
+  static int unit_shift(std::span<const Front> fronts) {
+    double least = kMostSlowness;
+    for (const Front& f : fronts) least = std::min(least, f.slowness);
+    return std::max(0, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(least))) - 1 - kUnitBits);
+  }
+
+  // A root is settled from the outset, at the time of the straight way to its centre.
+  void start(std::int32_t f) {
+    const Front& front = fronts_[static_cast<std::size_t>(f)];
+    const IVec2 column = column_of(front.root);
+    const double x = column.x + 0.5 - front.east, y = column.y + 0.5 - front.north;
+    const double straight = std::max(0.0, std::sqrt(x * x + y * y) - front.trunk) * front.slowness;
+    Cell& cell = cells_[front.root];
+    assert(cell.state < 0 || cell.state == kClosed);  // one root a cell
+    cell.tick = static_cast<std::uint64_t>(straight + 0.5);
+    cell.delay = static_cast<float>(static_cast<double>(cell.tick) - straight);
+    cell.state = f;
+    queue_.push(cell.tick, front.root);
+  }
+
+  void spread(std::uint32_t from, const Cell& settled) {
+    const std::int32_t f = settled.state;
+    const IVec2 c = column_of(from);
+    offer(settled, west_of(from), {c.x - 1, c.y}, {-1, 0}, f);
+    offer(settled, east_of(from), {c.x + 1, c.y}, {1, 0}, f);
+    offer(settled, south_of(from), {c.x, c.y - 1}, {0, -1}, f);
+    offer(settled, north_of(from), {c.x, c.y + 1}, {0, 1}, f);
+  }
+
+  // Offers cell `to`, one step from a settled cell, to that cell's front f.
+  void offer(const Cell& settled, std::uint32_t to, IVec2 column, IVec2 step, std::int32_t f) {
+    Cell& cell = cells_[to];
+    if (cell.state >= 0) return;
+    const Front& front = fronts_[static_cast<std::size_t>(f)];
+    const double x = column.x + 0.5 - front.east, y = column.y + 0.5 - front.north;
+    const double distance_squared = x * x + y * y;
+    if (distance_squared > front.reach_squared) return;
+    const double distance = std::sqrt(distance_squared);
+
+    const double s = front.slowness, from_tick = static_cast<double>(settled.tick);
+    double t, straight = 0;
+    if (distance <= front.trunk) {
+      t = from_tick + 1;
+    } else {
+      straight = (distance - front.trunk) * s;
+      t = from_tick + s;
+      // With a settled neighbour across the step as well, both directions count.
+      const std::uint32_t left = step.x != 0 ? south_of(to) : west_of(to);
+      const std::uint32_t right = step.x != 0 ? north_of(to) : east_of(to);
+      const bool has_left = cells_[left].state == f, has_right = cells_[right].state == f;
+      if (has_left || has_right) {
+        const double slope = s / distance;
+        const double along = (step.x != 0 ? step.x * x : step.y * y) * slope - static_cast<double>(settled.delay);
+        const double across = (step.x != 0 ? y : x) * slope;
+        if (has_left) t = both(t, from_tick, straight, s, along, across - static_cast<double>(cells_[left].delay));
+        if (has_right) t = both(t, from_tick, straight, s, along, -across - static_cast<double>(cells_[right].delay));
+      }
+    }
+
+    const std::uint64_t tick = std::max(settled.tick + 1, static_cast<std::uint64_t>(t + 0.5));
+    if (cell.state != kOpen) {
+      if (tick > cell.tick) return;
+      if (tick == cell.tick) {
+        if (front.rank >= fronts_[static_cast<std::size_t>(-2 - cell.state)].rank) return;
+        cell.state = -2 - f;
+        cell.delay = static_cast<float>(static_cast<double>(tick) - straight);
+        return;  // the entry in the queue stands
+      }
+    }
+    cell = {tick, static_cast<float>(static_cast<double>(tick) - straight), -2 - f};
+    queue_.push(tick, to);
+  }
+
+  // (a + delay)^2 + (b + delay)^2 = s^2 for a, b = slope of the straight time minus the neighbour's delay; counts only
+  // when both differences are upwind, which is (a - b)^2 <= s^2, and later than the neighbours.
+  static double both(double t, double after, double straight, double s, double a, double b) {
+    const double difference = (a - b) * (a - b), square = s * s;
+    if (difference > square) return t;
+    const double candidate = straight + 0.5 * (std::sqrt(2.0 * square - difference) - a - b);
+    return candidate > after && candidate < t ? candidate : t;
+  }
+
+  IVec2 column_of(std::uint32_t cell) const {
+    const IVec2 low = blocks_[cell / kBlock].low;
+    return {low.x + static_cast<int>(cell % kEdge), low.y + static_cast<int>(cell / kEdge % kEdge)};
+  }
+  std::uint32_t in_block(std::int32_t block, std::uint32_t inside) const {
+    return block == LayerCells::kNoBlock ? beyond_ : static_cast<std::uint32_t>(block) * kBlock + inside;
+  }
+  std::uint32_t west_of(std::uint32_t c) const {
+    if (c % kEdge != 0) return c - 1;
+    return in_block(blocks_[c / kBlock].west, c % kBlock + (kEdge - 1));
+  }
+  std::uint32_t east_of(std::uint32_t c) const {
+    if (c % kEdge != kEdge - 1) return c + 1;
+    return in_block(blocks_[c / kBlock].east, c % kBlock - (kEdge - 1));
+  }
+  std::uint32_t south_of(std::uint32_t c) const {
+    if (c % kBlock >= kEdge) return c - kEdge;
+    return in_block(blocks_[c / kBlock].south, c % kBlock + (kBlock - kEdge));
+  }
+  std::uint32_t north_of(std::uint32_t c) const {
+    if (c % kBlock < kBlock - kEdge) return c + kEdge;
+    return in_block(blocks_[c / kBlock].north, c % kBlock - (kBlock - kEdge));
+  }
+
+  std::span<const Front> fronts_;
+  std::span<const LayerCells::Block> blocks_;
+  std::vector<Cell> cells_;
+  std::uint32_t beyond_ = 0;
+  BucketQueue queue_;
+};
+
+}  // namespace
+
+double front_slowness(float projected_area_m2, float speed_exponent, float voxel_m) {
+  const float speed = speed_exponent == 1.0f ? projected_area_m2 : pow(projected_area_m2, speed_exponent);
+  return std::clamp(kTicksPerMetre * static_cast<double>(voxel_m) / static_cast<double>(speed), kLeastSlowness,
+                    kMostSlowness);
+}
+
+LayerResult propagate(std::span<const Front> fronts, const LayerCells& cells) {
+  assert(cells.open.size() == cells.blocks.size() * kBlock);
+  Layer layer(fronts, cells);
+  layer.run();
+  return layer.result();
+}
+
+}  // namespace bosquet::crowns
