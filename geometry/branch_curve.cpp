@@ -11,9 +11,9 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-// What a ring's absence may cost at coarseness 1: an error of centre or radius of 4 mm and an eighth of the radius.
-constexpr float kTolerance_m = 0.004f;
-constexpr float kToleranceOfRadius = 0.12f;
+// What a ring's absence may cost at coarseness 1: an error of centre or radius of 3 mm and a sixteenth of the radius.
+constexpr float kTolerance_m = 0.003f;
+constexpr float kToleranceOfRadius = 0.06f;
 
 // Rings are wanted at least so often, so that tints by height and occlusion can change along a straight trunk.
 constexpr float kLongestSpan_m = 2.0f;
@@ -30,9 +30,6 @@ Vec3 direction(const Vec3& v, const Vec3& otherwise) {
   const float l = length(v);
   return l > 1e-6f ? v / l : otherwise;
 }
-
-/// The part of `d` across the unit vector `h`.
-float distance_from_line(const Vec3& d, const Vec3& h) { return length(d - glm::dot(d, h) * h); }
 
 /// Moves inner nodes of thick wood toward their neighbours' middle: bends rounder than the wood is thick.
 void smooth(std::vector<Node>& nodes, std::size_t fixed) {
@@ -105,7 +102,7 @@ void rank(std::span<BranchSample> path) {
     for (std::size_t j = a + 1; j < b; ++j) {
       const float t = (path[j].along - p.along) / (q.along - p.along);
       const float off = length(path[j].centre - glm::mix(p.centre, q.centre, t));
-      const float wide = std::abs(path[j].radius - glm::mix(p.radius, q.radius, t));
+      const float wide = 2.0f * std::abs(path[j].radius - glm::mix(p.radius, q.radius, t));
       const float error = std::max(off, wide) / (kTolerance_m + kToleranceOfRadius * path[j].wood);
       if (error > worst) worst = error, at = j;
     }
@@ -125,13 +122,29 @@ void rank(std::span<BranchSample> path) {
 struct Fork {
   Vec3 node{0.0f};
   Vec3 heading = kUp;
-  float radius = 0;  // of the parent there
+  float radius = 0;                        // of the parent there
+  std::span<const BranchSample> parent{};  // the part of its curve near the node
+
   /// Metres outside the parent's surface, below 0 inside.
   float outside(const Vec3& p) const {
-    const Vec3 d = p - node;
-    return std::max(distance_from_line(d, heading) - radius, 0.4f * (length(d) - 2.5f * radius));
+    float least = kInfinite;
+    for (std::size_t k = 1; k < parent.size(); ++k) {
+      const BranchSample &a = parent[k - 1], &b = parent[k];
+      const Vec3 step = b.centre - a.centre;
+      const float t = std::clamp(glm::dot(p - a.centre, step) / glm::dot(step, step), 0.0f, 1.0f);
+      least = std::min(least, length(p - a.centre - t * step) - glm::mix(a.radius, b.radius, t));
+    }
+    return least;
   }
 };
+
+/// The samples of a curve within `reach` metres of sample `at`, at least one on either side.
+std::span<const BranchSample> around(std::span<const BranchSample> curve, std::size_t at, float reach) {
+  std::size_t low = at, high = at;
+  while (low > 0 && (low == at || curve[at].along - curve[low].along < reach)) --low;
+  while (high + 1 < curve.size() && (high == at || curve[high].along - curve[at].along < reach)) ++high;
+  return curve.subspan(low, high - low + 1);
+}
 
 }  // namespace
 
@@ -143,10 +156,12 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
   result.samples.reserve(3 * paths.internodes.size());
   result.tip_radius = kInfinite;
 
-  // Smoothed upper end of each internode, and the direction in which its curve passes there; children need both.
+  // Of each internode's upper end, for its children: where the curve passes, in which direction, at which sample.
   std::vector<Vec3> node_at(skeleton.size());
   std::vector<Vec3> node_heading(skeleton.size());
+  std::vector<std::uint32_t> node_sample(skeleton.size());
   std::vector<Node> nodes;
+  std::vector<BranchSample> parent_samples;
 
   for (const ThickestPaths::Path& path : paths.paths) {
     const auto run = paths.of(path);
@@ -155,7 +170,13 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
     float base_light = skeleton.light[run[0]];
     if (!stem) {
       const std::uint32_t below = paths.internodes[path.node];
-      fork = {node_at[below], node_heading[below], radius[below]};
+      fork = {node_at[below], node_heading[below], std::max(radius[below], 1e-4f), {}};
+      const BranchCurve& parent = result.curves[static_cast<std::size_t>(path.parent)];
+      if (parent.count > 0) {
+        const auto near = around(result.of(parent), node_sample[below] - parent.first, 3.0f * fork.radius);
+        parent_samples.assign(near.begin(), near.end());  // a copy: more samples are about to be added
+        fork.parent = parent_samples;
+      }
       base_light = skeleton.light[below];
     }
 
@@ -178,14 +199,14 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
     curve.base_radius = nodes.front().wood = std::max(radius[run[0]], 1e-4f);
     Vec3 start = kUp;
     float along = 0.0f;
+    std::size_t skipped = 0;
     if (stem) {
       const float depth = 0.04f + curve.base_radius;
       nodes.insert(nodes.begin(), {nodes.front().at - depth * kUp, curve.base_radius, base_light});
       along = -depth;
     } else {
-      std::size_t inside = 1;
-      while (inside + 1 < nodes.size() && fork.outside(nodes[inside].at) < 0.0f) ++inside;
-      nodes.erase(nodes.begin() + 1, nodes.begin() + static_cast<std::ptrdiff_t>(inside));
+      while (skipped + 2 < nodes.size() && fork.outside(nodes[skipped + 1].at) < 0.0f) ++skipped;
+      nodes.erase(nodes.begin() + 1, nodes.begin() + 1 + static_cast<std::ptrdiff_t>(skipped));
       const Vec3 leaving = direction(nodes[1].at - fork.node, fork.heading);
       const float along_parent = std::max(0.0f, glm::dot(leaving, fork.heading));
       nodes.front().at -= along_parent * std::min(0.7f * fork.radius, 0.1f) * fork.heading;
@@ -195,6 +216,7 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
     // Sample the curve, closely where it leaves the parent or the ground.
     const float flare_top = std::min(shape.root_flare_height * curve.base_radius, kFlareTop_m);
     const float collar = shape.collar_length * curve.base_radius;
+    bool in_collar = !fork.parent.empty();
     Vec3 last = nodes.front().at;
     for (std::size_t j = 0; j + 1 < nodes.size(); ++j) {
       const Hermite h = piece(nodes, j, start);
@@ -216,14 +238,19 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
         if (stem) {
           const float x = 1.0f - std::clamp(s.along / flare_top, 0.0f, 1.0f);
           s.radius = s.wood * (1.0f + shape.root_flare * x * x * x);
-        } else {
-          const float x = 1.0f - std::clamp(fork.outside(s.centre) / collar, 0.0f, 1.0f);
+        } else if (in_collar) {
+          const float outside = fork.outside(s.centre);
+          const float x = 1.0f - std::clamp(outside / collar, 0.0f, 1.0f);
           const float room = std::max(s.wood, 0.92f * fork.radius);
           s.radius = std::min(s.wood * (1.0f + shape.collar * x * x), room);
+          in_collar = outside < collar;
         }
         add(result.samples, curve.first, s);
       }
+      const std::size_t place = stem ? j : j + 1 + skipped;  // of the node just reached among the path's, from 1
+      if (place > 0) node_sample[run[place - 1]] = static_cast<std::uint32_t>(result.samples.size()) - 1;
     }
+    for (std::size_t k = 0; k < skipped; ++k) node_sample[run[k]] = curve.first;
 
     curve.count = static_cast<std::uint32_t>(result.samples.size()) - curve.first;
     if (curve.count < 2) {  // a path without length

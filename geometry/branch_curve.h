@@ -39,10 +39,11 @@ struct BranchSample {
 };
 
 struct BranchCurve {
-  std::uint32_t first = 0, count = 0;  ///< in BranchCurves::samples, base to tip; 0 for a path without length, else >= 2
-  std::int32_t parent = -1;            ///< curve it springs from, -1 for a stem
-  float base_radius = 0;               ///< of its wood, without collar
-  float weight = 0;  ///< how much would be missed without it: bark area, with all that springs from it
+  std::uint32_t first = 0,
+                count = 0;   ///< in BranchCurves::samples, base to tip; 0 for a path without length, else >= 2
+  std::int32_t parent = -1;  ///< curve it springs from, -1 for a stem
+  float base_radius = 0;     ///< of its wood, without collar
+  float weight = 0;          ///< how much would be missed without it: bark area, with all that springs from it
 };
 
 struct BranchCurves {
@@ -55,8 +56,8 @@ struct BranchCurves {
 
 /// Shape of forks and feet; the same for all species so far.
 struct BranchShape {
-  float collar = 0.45f;            ///< how much wider a branch is where it leaves its parent
-  float collar_length = 2.2f;      ///< in radii of the branch
+  float collar = 0.55f;            ///< how much wider a branch is where it leaves its parent
+  float collar_length = 3.0f;      ///< in radii of the branch
   float root_flare = 0.55f;        ///< how much wider a stem is at the ground
   float root_flare_height = 3.0f;  ///< in radii of the stem; never above kFlareTop_m
 };

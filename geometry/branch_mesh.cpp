@@ -24,8 +24,11 @@ constexpr float kCoarsestWhole = 8.0f;
 constexpr float kCapsUpTo = 2.0f;
 constexpr float kThinTip_m = 0.006f;
 
-// A turn of the bark around the trunk, in tiles per metre of branch.
-constexpr float kBarkTurn = 0.03f;
+// The bark turns around a branch by so much of a tile for each tile along it.
+constexpr float kBarkTurn = 0.04f;
+
+// Bark is drawn at most so many times smaller than life.
+constexpr float kSmallestBark = 1.0f / 12.0f;
 
 struct Ring {
   std::uint32_t sample;
@@ -73,19 +76,6 @@ void select_rings(std::span<const BranchSample> path, float tip_radius, float co
     while (last && out.rings.size() > 1 && crossing(out.rings.back())) out.rings.pop_back();
     out.rings.push_back({static_cast<std::uint32_t>(k), sides_of(s.wood, tip_radius, coarseness)});
   }
-}
-
-/// How the texture goes around a ring.
-struct Wrap {
-  enum Kind { whole, mirrored, open } kind = open;
-  int repeats = 0;
-  bool operator==(const Wrap&) const = default;
-};
-
-Wrap wrap_of(float wood, int sides, float tile_m) {
-  const float tiles = 2.0f * kPi * wood / tile_m;
-  if (tiles >= 0.6f) return {Wrap::whole, std::max(1, static_cast<int>(tiles + 0.5f))};
-  return {sides >= 6 ? Wrap::mirrored : Wrap::open, 0};
 }
 
 const SinCos* circle(int sides) {
@@ -163,18 +153,22 @@ class Mesher {
     lobe_phase_ = random.uniform(0.0f, 2.0f * kPi);
     const float tile = look_.bark.tile_m;
 
+    // Whole tiles around, as many as fit the base at true scale.
+    const float tiles = 2.0f * kPi * path[rings.rings[0].sample].wood / tile;
+    const float repeats = std::max(1.0f, static_cast<float>(static_cast<int>(tiles + 0.5f)));
+    const auto scale = [&](float wood) { return std::max(2.0f * kPi * wood / (tile * repeats), kSmallestBark); };
+
     Frame frame{};
-    Wrap wrap{};
     std::uint32_t below = 0;
+    float v = 0.0f;
     for (std::size_t k = 0; k < rings.rings.size(); ++k) {
       const Ring& ring = rings.rings[k];
       const BranchSample& s = path[ring.sample];
-      frame = k == 0 ? first_frame(s.tangent, stem ? Vec3{0, 0, -1} : kUp)
-                     : carried(frame, path[rings.rings[k - 1].sample], s);
-
-      // Taper on both sides, for the normals.
       const BranchSample& before = path[rings.rings[k > 0 ? k - 1 : k].sample];
       const BranchSample& after = k + 1 < rings.rings.size() ? path[rings.rings[k + 1].sample] : path.back();
+      frame = k == 0 ? first_frame(s.tangent, stem ? Vec3{0, 0, -1} : kUp) : carried(frame, before, s);
+
+      // Taper on both sides, for the normals.
       const float run = after.along - before.along;
       const float taper = run > kLeastStep_m ? std::clamp((after.radius - before.radius) / run, -1.0f, 1.0f) : 0.0f;
 
@@ -182,17 +176,11 @@ class Mesher {
       const float shade = occlusion(s.light) * (!stem && k == 0 ? 0.65f : 1.0f);
       const Vec3 tint = tints_.at(2.0f * s.wood, s.centre.y) * shade;
       const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
-      const Vec2 uv{u0, v0 - s.along / tile};
 
-      // The ring ends one strip and begins the next, with other coordinates where the wood has become too thin for
-      // them.
-      if (k > 0) {
-        const std::uint32_t top = add_ring(s, ring, frame, taper, wrap, uv, colour);
-        join(below, rings.rings[k - 1].sides, top, ring.sides);
-        below = top;
-      }
-      const Wrap next = wrap_of(s.wood, ring.sides, tile);
-      if (k == 0 || !(next == wrap)) below = add_ring(s, ring, frame, taper, wrap = next, uv, colour);
+      v += 2.0f * (s.along - before.along) / (tile * (scale(s.wood) + scale(before.wood)));
+      const std::uint32_t top = add_ring(s, ring, frame, taper, {u0 + kBarkTurn * v, v0 - v}, repeats, colour);
+      if (k > 0) join(below, rings.rings[k - 1].sides, top, ring.sides);
+      below = top;
     }
 
     // The tip: a cone to the last sample, or a cap beyond it.
@@ -202,7 +190,8 @@ class Mesher {
     const Vec3 tint = tints_.at(2.0f * tip.wood, tip.centre.y) * occlusion(tip.light);
     mesh.positions.push_back(tip.centre + beyond * tip.tangent);
     mesh.normals.push_back(tip.tangent);
-    mesh.uvs.push_back({u0 + 0.5f * static_cast<float>(wrap.repeats), v0 - (tip.along + beyond) / tile});
+    v += (tip.along + beyond - path[last.sample].along) / (tile * scale(path[last.sample].wood));
+    mesh.uvs.push_back({u0 + kBarkTurn * v + 0.5f * repeats, v0 - v});
     mesh.colours.push_back({byte(tint.x), byte(tint.y), byte(tint.z), 255});
     const auto apex = static_cast<std::uint32_t>(mesh.positions.size()) - 1;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(last.sides); ++i)
@@ -213,11 +202,10 @@ class Mesher {
 
  private:
   /// Adds sides + 1 vertices, the first and the last at one place; their first index comes back.
-  std::uint32_t add_ring(const BranchSample& s, const Ring& ring, const Frame& frame, float taper, const Wrap& wrap,
-                         Vec2 uv, Rgba8 colour) {
+  std::uint32_t add_ring(const BranchSample& s, const Ring& ring, const Frame& frame, float taper, Vec2 uv,
+                         float repeats, Rgba8 colour) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const SinCos* angle = circle(ring.sides);
-    const float tiles = 2.0f * kPi * s.wood / look_.bark.tile_m;
     const float lobe = ring.sides >= 12 && lobes_ > 0.0f ? 0.3f * (s.radius - s.wood) : 0.0f;
     for (int i = 0; i <= ring.sides; ++i) {
       const Vec3 out = angle[i].cos * frame.normal + angle[i].sin * frame.binormal;
@@ -231,14 +219,9 @@ class Mesher {
         const Vec3 around = angle[i].cos * frame.binormal - angle[i].sin * frame.normal;
         normal += lobes_ * lobe * wave.sin / radius * around;
       }
-      const float around = static_cast<float>(i) / static_cast<float>(ring.sides);
-      float u = uv.x;
-      if (wrap.kind == Wrap::whole) u += static_cast<float>(wrap.repeats) * around + kBarkTurn * s.along;
-      if (wrap.kind == Wrap::mirrored) u += tiles * std::min(around, 1.0f - around);
-      if (wrap.kind == Wrap::open) u += tiles * around;
       mesh.positions.push_back(s.centre + radius * out);
       mesh.normals.push_back(glm::normalize(normal));
-      mesh.uvs.push_back({u, uv.y});
+      mesh.uvs.push_back({uv.x + repeats * static_cast<float>(i) / static_cast<float>(ring.sides), uv.y});
       mesh.colours.push_back(colour);
     }
     return first;

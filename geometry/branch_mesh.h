@@ -8,9 +8,11 @@
 // Erratum   eq. C.2 is C = 3 (d / d_e)^(1/n); the source prints 3 d^n / d_e
 // Decision  n = 2 and at most kMostSides sides. Coarseness c >= 1 divides the sides by c^(1/2) and drops rings that
 //           matter less than c
-// UV        v counts bark tiles along the branch, upward; u counts them around: whole repeats where a tile is not wider
-//           than about the circumference, on thinner wood mirrored at two lines (true scale, no seam). Each path
-//           starts elsewhere on the tile and a small turn per metre hides repetition
+// UV        u counts bark tiles around, v along the branch, upward: whole repeats around, as many as the base of the
+// path
+//           takes at true scale; as wood gets thinner its bark gets finer in both directions alike (so no seam, no
+//           stretching, and young wood has finer bark, as it has). Each path starts elsewhere on the tile and a small
+//           turn hides repetition
 // Colour    bark_tint() of the look by diameter and height, times occlusion from the skeleton's light
 // Holds     no NaN, no triangle without area, unit normals; a path is closed but for its base, which lies inside its
 //           parent or under the ground; triangles(plan) is exactly what mesh_branches makes
