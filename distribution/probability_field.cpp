@@ -77,21 +77,24 @@ ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const st
   assert(suitability.empty() ||
          suitability.size() == static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
   log2_.assign(blocks * kBlockCells, 0);
-  cover_.assign(blocks * kBlockCells, 0);
+  cover_.assign(blocks * kBlockCells, 1);
   suitability_.assign(blocks * kBlockCells, 0);
   for (int j = 0; j < cells.y; ++j)
-    for (int i = 0; i < cells.x; ++i)
-      suitability_[place({i, j})] = suitability.empty()
-                                        ? 255
-                                        : suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) +
-                                                      static_cast<std::size_t>(i)];
+    for (int i = 0; i < cells.x; ++i) {
+      const std::size_t n = place({i, j});
+      cover_[n] = 0;
+      suitability_[n] = suitability.empty()
+                            ? 255
+                            : suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) +
+                                          static_cast<std::size_t>(i)];
+    }
   for (IVec2 nodes = blocks_;; nodes = (nodes + 1) / 2) {
     levels_.push_back(
-        {nodes, std::vector<std::uint64_t>(static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y))});
+        {nodes, std::vector<Pair>(static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y))});
     if (nodes.x == 1 && nodes.y == 1) break;
   }
   top_ = kBlockLevel + static_cast<int>(levels_.size()) - 1;
-  for (std::size_t b = 0; b < blocks; ++b) sum_block(b);
+  for (std::size_t b = 0; b < blocks; ++b) levels_[0].sums[b] = block_sum(b);
   sum_above({0, 0}, blocks_ - 1);
 }
 
@@ -102,21 +105,24 @@ std::size_t ProbabilityField::place(IVec2 cell) const {
          static_cast<std::size_t>(cell.x % kBlock);
 }
 
-std::uint64_t ProbabilityField::cell_weight(std::size_t n) const {
-  if (cover_[n] != 0 || suitability_[n] == 0) return 0;
-  return suited(fixed_exp2(fractions().data(), log2_[n]), suitability_[n]);
+ProbabilityField::Pair ProbabilityField::cell_weight(std::size_t n) const {
+  if (cover_[n] != 0) return {};
+  const std::uint64_t open = fixed_exp2(fractions().data(), log2_[n]);
+  return {open, suited(open, suitability_[n])};
 }
 
-std::uint64_t ProbabilityField::weight(IVec2 cell) const { return cell_weight(place(cell)); }
+std::uint64_t ProbabilityField::weight(IVec2 cell) const { return cell_weight(place(cell)).suited; }
 std::uint8_t ProbabilityField::suitability(IVec2 cell) const { return suitability_[place(cell)]; }
 
-void ProbabilityField::sum_block(std::size_t block) {
-  const std::size_t first = block * kBlockCells;
+ProbabilityField::Pair ProbabilityField::block_sum(std::size_t block) const {
   const std::uint64_t* fraction = fractions().data();
-  std::uint64_t sum = 0;
-  for (std::size_t n = first; n < first + kBlockCells; ++n)
-    if (cover_[n] == 0) sum += suited(fixed_exp2(fraction, log2_[n]), suitability_[n]);
-  levels_[0].sums[block] = sum;
+  Pair sum;
+  for (std::size_t n = block * kBlockCells; n < (block + 1) * kBlockCells; ++n) {
+    const std::uint64_t open = cover_[n] == 0 ? fixed_exp2(fraction, log2_[n]) : 0;
+    sum.open += open;
+    sum.suited += suited(open, suitability_[n]);
+  }
+  return sum;
 }
 
 void ProbabilityField::sum_above(IVec2 low, IVec2 high) {
@@ -129,7 +135,7 @@ void ProbabilityField::sum_above(IVec2 low, IVec2 high) {
       for (int x = low.x; x <= high.x; ++x) {
         const bool right = 2 * x + 1 < below.nodes.x, upper = 2 * y + 1 < below.nodes.y;
         const std::size_t n = static_cast<std::size_t>(2 * y) * width + static_cast<std::size_t>(2 * x);
-        std::uint64_t sum = below.sums[n];
+        Pair sum = below.sums[n];
         if (right) sum += below.sums[n + 1];
         if (upper) sum += below.sums[n + width];
         if (right && upper) sum += below.sums[n + width + 1];
@@ -144,7 +150,7 @@ void ProbabilityField::change_cover(IVec2 cell, int by) {
   const std::size_t n = place(cell);
   assert(by > 0 || cover_[n] > 0);
   cover_[n] += static_cast<std::uint32_t>(by);
-  sum_block(n / kBlockCells);
+  levels_[0].sums[n / kBlockCells] = block_sum(n / kBlockCells);
   sum_above(cell / kBlock, cell / kBlock);
 }
 
@@ -165,7 +171,6 @@ void ProbabilityField::apply(const Stamp& stamp, int sign) {
   const float to_steps = acts ? kKernelSteps / (stamp.active_radius_m / cell_m_ - trunk) : 0.0f;
   const float active2 = acts ? stamp.active_radius_m / cell_m_ * (stamp.active_radius_m / cell_m_) : -1.0f;
   const float covered = stamp.covered_radius_m / cell_m_, covered2 = covered * covered;
-  const std::uint64_t* fraction = fractions().data();
   constexpr auto kLast = static_cast<float>(kKernelSteps);
   for (int by = low.y; by <= high.y; ++by) {
     for (int bx = low.x; bx <= high.x; ++bx) {
@@ -201,28 +206,31 @@ void ProbabilityField::apply(const Stamp& stamp, int sign) {
         for (int k = 0; k < kBlockCells; ++k) logs[k] += sign * table[step[static_cast<std::size_t>(k)]];
       }
 
-      const std::uint8_t* suitability = suitability_.data() + block * kBlockCells;
-      std::uint64_t sum = 0;
-      for (int k = 0; k < kBlockCells; ++k)
-        if (covers[k] == 0) sum += suited(fixed_exp2(fraction, logs[k]), suitability[k]);
-      levels_[0].sums[block] = sum;
+      levels_[0].sums[block] = block_sum(block);
     }
   }
   sum_above(low, high);
 }
 
-std::uint64_t ProbabilityField::node_sum(int level, int x, int y) const {
+std::uint64_t ProbabilityField::node_sum(Sums which, int level, int x, int y) const {
+  Pair sum;
   if (level >= kBlockLevel) {
     const Level& l = levels_[static_cast<std::size_t>(level - kBlockLevel)];
     if (x >= l.nodes.x || y >= l.nodes.y) return 0;
-    return l.sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(l.nodes.x) + static_cast<std::size_t>(x)];
+    sum = l.sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(l.nodes.x) + static_cast<std::size_t>(x)];
+  } else if (level == 0) {
+    if (x >= cells_.x || y >= cells_.y) return 0;
+    sum = cell_weight(place({x, y}));
+  } else {
+    for (int c = 0; c < 4; ++c) {
+      const IVec2 cell{2 * x + c % 2, 2 * y + c / 2};
+      if (cell.x < cells_.x && cell.y < cells_.y) sum += cell_weight(place(cell));
+    }
   }
-  if (level == 0) return x < cells_.x && y < cells_.y ? cell_weight(place({x, y})) : 0;
-  return node_sum(0, 2 * x, 2 * y) + node_sum(0, 2 * x + 1, 2 * y) + node_sum(0, 2 * x, 2 * y + 1) +
-         node_sum(0, 2 * x + 1, 2 * y + 1);
+  return which == Sums::open ? sum.open : sum.suited;
 }
 
-void ProbabilityField::sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const {
+void ProbabilityField::sums_under(const RegionMask& mask, Sums which, std::vector<std::uint64_t>& sums) const {
   const auto nodes = mask.nodes();
   sums.resize(nodes.size());
   for (std::size_t n = nodes.size(); n-- > 0;) {  // children stand behind their parent
@@ -232,7 +240,7 @@ void ProbabilityField::sums_under(const RegionMask& mask, std::vector<std::uint6
         sums[n] = 0;
         break;
       case RegionMask::Cover::full:
-        sums[n] = node_sum(node.level, node.x, node.y);
+        sums[n] = node_sum(which, node.level, node.x, node.y);
         break;
       case RegionMask::Cover::partial:
         sums[n] = sums[node.first_child] + sums[node.first_child + 1] + sums[node.first_child + 2] +
@@ -241,7 +249,7 @@ void ProbabilityField::sums_under(const RegionMask& mask, std::vector<std::uint6
   }
 }
 
-std::optional<IVec2> ProbabilityField::draw(const RegionMask& mask, std::span<const std::uint64_t> sums,
+std::optional<IVec2> ProbabilityField::draw(const RegionMask& mask, Sums which, std::span<const std::uint64_t> sums,
                                             const RandomStream& stream, std::uint32_t attempt) const {
   assert(sums.size() == mask.nodes().size());
   if (sums[0] == 0) return std::nullopt;
@@ -256,7 +264,8 @@ std::optional<IVec2> ProbabilityField::draw(const RegionMask& mask, std::span<co
     double chosen_time = 0.0, chosen_sum = 0.0;
     for (int c = 0; c < 4; ++c) {
       const int cx = x + c % 2, cy = y + c / 2;
-      const std::uint64_t sum = full ? node_sum(level, cx, cy) : sums[at.first_child + static_cast<std::uint32_t>(c)];
+      const std::uint64_t sum =
+          full ? node_sum(which, level, cx, cy) : sums[at.first_child + static_cast<std::uint32_t>(c)];
       if (sum == 0) continue;
       const double time = race_time(stream.at(node_number(attempt, level, cx, cy)));
       const auto weight = static_cast<double>(sum);

@@ -10,7 +10,10 @@
 // Drawing   instead of the source's rows and columns a quadtree of sums is descended. Every node has a random number
 //           u(key, attempt, node) of its own and at each node the child with the smallest -log2(u) / sum is taken,
 //           which happens with probability proportional to the sum. When a part of the site loses its weight only the
-//           draws that fell there change; all others stay
+//           draws whose way led near change
+// Decision  the first draws for a tree are made as if the whole site were suitable (Sums::open) and refused where it is
+//           not, only later ones from the suitable cells alone. Both ways have the same distribution, and a new path or
+//           pond moves hardly any tree that did not stand on it
 // Layout    cells in blocks of 4 x 4, so a kernel touches few cache lines; sums are kept for blocks and above
 // Frame     cell (i, j) spans (i, j) * cell_m to the next, i east, j north; (0, 0) at the site's south-west corner
 // Cost      a kernel: its blocks; a draw: the mask's rim and four numbers a level
@@ -29,6 +32,9 @@
 namespace bosquet::distribution {
 
 inline constexpr int kMostFieldCells = 4096;  ///< along a side
+
+/// Which weights are summed and drawn by: as if all cells were suitable, or as they are.
+enum class Sums { open, suited };
 
 /// What one standing tree does to a field.
 struct Stamp {
@@ -52,11 +58,11 @@ class ProbabilityField {
   void open(IVec2 cell) { change_cover(cell, -1); }
 
   /// Sum of the weights of each node of the mask, the whole mask's in front; to be asked again after a change.
-  void sums_under(const RegionMask& mask, std::vector<std::uint64_t>& sums) const;
+  void sums_under(const RegionMask& mask, Sums which, std::vector<std::uint64_t>& sums) const;
 
-  /// A cell inside the mask, drawn by weight, or nothing when no weight is left there.
-  std::optional<IVec2> draw(const RegionMask& mask, std::span<const std::uint64_t> sums, const RandomStream& stream,
-                            std::uint32_t attempt) const;
+  /// A cell inside the mask, drawn by weight, or nothing when no weight is left there. `sums` as asked just before.
+  std::optional<IVec2> draw(const RegionMask& mask, Sums which, std::span<const std::uint64_t> sums,
+                            const RandomStream& stream, std::uint32_t attempt) const;
 
   /// 2^20 where nothing acts.
   std::uint64_t weight(IVec2 cell) const;
@@ -71,28 +77,33 @@ class ProbabilityField {
   bool operator==(const ProbabilityField&) const = default;
 
  private:
+  struct Pair {
+    std::uint64_t open = 0, suited = 0;
+    Pair& operator+=(const Pair& p) { return open += p.open, suited += p.suited, *this; }
+    bool operator==(const Pair&) const = default;
+  };
   struct Level {
     IVec2 nodes{0};
-    std::vector<std::uint64_t> sums;
+    std::vector<Pair> sums;
     bool operator==(const Level&) const = default;
   };
 
   void apply(const Stamp& stamp, int sign);
   void change_cover(IVec2 cell, int by);
-  void sum_block(std::size_t block);
+  Pair block_sum(std::size_t block) const;
   void sum_above(IVec2 low, IVec2 high);
   std::size_t place(IVec2 cell) const;
-  std::uint64_t cell_weight(std::size_t place) const;
-  std::uint64_t node_sum(int level, int x, int y) const;
+  Pair cell_weight(std::size_t place) const;
+  std::uint64_t node_sum(Sums which, int level, int x, int y) const;
 
   IVec2 cells_;
   float cell_m_;
   IVec2 blocks_;
   int top_ = 0;
-  std::vector<std::int64_t> log2_;         // in steps of 2^-16
-  std::vector<std::uint32_t> cover_;       // how many trees leave no room
-  std::vector<std::uint8_t> suitability_;  // 0 beyond the site
-  std::vector<Level> levels_;              // levels_[n] holds level n + 2
+  std::vector<std::int64_t> log2_;    // in steps of 2^-16
+  std::vector<std::uint32_t> cover_;  // how many trees leave no room; 1 in cells that only fill up a block
+  std::vector<std::uint8_t> suitability_;
+  std::vector<Level> levels_;  // levels_[n] holds level n + 2
 };
 
 }  // namespace bosquet::distribution

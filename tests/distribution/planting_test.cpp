@@ -1,0 +1,289 @@
+#include "distribution/planting.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "distribution/inventory.h"
+#include "distribution/sowing.h"
+#include "terrain/brush.h"
+
+namespace bosquet::distribution {
+namespace {
+
+terrain::Terrain flat(Vec2 size_m) {
+  return terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice(size_m)));
+}
+
+Species species(const char* name, PlantingRules rules = {}) { return {name, 0.4f, rules}; }
+
+const std::vector<Interaction> kInteractions{{"a", "a", KernelKind::clustering, 4.0f, 8.0f},
+                                             {"a", "b", KernelKind::inhibition, 3.0f, 5.0f},
+                                             {"b", "b", KernelKind::clustering, 6.0f, 2.0f}};
+
+Planting planting(const terrain::Terrain& site, std::vector<Species> list = {species("a"), species("b")},
+                  std::span<const Interaction> interactions = kInteractions, float cell_m = 0.0f) {
+  auto made = Planting::make(site, std::move(list), interactions, cell_m);
+  EXPECT_TRUE(made);
+  return *std::move(made);
+}
+
+Box2 whole(const Planting& p) { return {Vec2{0}, p.terrain().size_m()}; }
+
+RC_GTEST_PROP(Planting, FieldsAfterAnyPlacingRemovingAndMovingEqualFieldsMadeAnew, ()) {
+  Planting p = planting(flat({20, 15}));
+  p.field(0), p.field(1);  // both exist from the start
+  std::vector<std::uint64_t> keys;
+  for (int n = 0; n < 40; ++n) {
+    const int what = *rc::gen::inRange(0, 4);
+    if (what <= 1 || keys.empty()) {
+      const Sown sown =
+          sow(p, {.seed = 3, .block = 9, .first_index = static_cast<std::uint64_t>(n), .mix = {{0}, {1}}}, whole(p), 1);
+      for (const StandingTree& tree : sown.trees) keys.push_back(tree.key);
+      continue;
+    }
+    const auto which = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(keys.size())));
+    if (what == 2) {
+      RC_ASSERT(p.remove(keys[which]));
+      keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(which));
+    } else {
+      RC_ASSERT(p.move(keys[which], {static_cast<float>(*rc::gen::inRange(0, 200)) / 10.0f,
+                                     static_cast<float>(*rc::gen::inRange(0, 150)) / 10.0f}));
+    }
+  }
+  Planting again = planting(flat({20, 15}));
+  std::vector<StandingTree> trees(p.trees().begin(), p.trees().end());
+  std::sort(trees.begin(), trees.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+  for (const StandingTree& tree : trees) again.add(tree);
+  RC_ASSERT(p.field(0) == again.field(0));
+  RC_ASSERT(p.field(1) == again.field(1));
+}
+
+TEST(Planting, EveryTreeKeepsItsDistanceHoweverCoarseTheFieldIs) {
+  for (const float cell : {0.1f, 0.5f, 2.0f}) {
+    Planting p = planting(flat({30, 30}), {species("a", {.min_spacing_m = 1.2f}), species("b", {.min_spacing_m = 0})},
+                          kInteractions, cell);
+    const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0}, {1}}}, whole(p), 250);
+    ASSERT_EQ(sown.trees.size(), 250u) << cell;
+    for (std::size_t i = 0; i < sown.trees.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        ASSERT_GE(glm::distance(sown.trees[i].at, sown.trees[j].at), least_distance_m(sown.trees[i], sown.trees[j]));
+  }
+}
+
+TEST(Planting, NothingIsSownOffTheSiteInExclusionsWaterOrAgainstTheSpeciesLimits) {
+  terrain::Terrain site = terrain::make_terrain(terrain::Heightfield(
+      *terrain::make_lattice({60, 40}), [](Vec2 p) { return p.x < 40 ? 0.1f * p.x : 4.0f + 1.5f * (p.x - 40); }));
+  site.water_level_m = 1.0f;  // west of 10 m
+  site = terrain::exclude_path(site, std::vector<Vec2>{{0, 20}, {60, 20}}, 6.0f);
+  Planting p = planting(site, {species("a", {.max_slope_deg = 30}), species("b", {.max_altitude_m = 2.5f})});
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0}, {1}}}, Box2{Vec2{-50}, Vec2{100}}, 500);
+  ASSERT_EQ(sown.trees.size(), 500u);
+  for (const StandingTree& tree : sown.trees) {
+    EXPECT_GE(tree.at.x, 9.99f);
+    EXPECT_LE(tree.at.x, tree.species == 0 ? 40.6f : 25.01f);  // the slope's edge is a cell wide
+    EXPECT_TRUE(tree.at.y >= 0 && tree.at.y <= 40);
+    EXPECT_GT(std::abs(tree.at.y - 20), 2.95f);
+  }
+}
+
+TEST(Planting, TheDensityMaskThinsWhatIsSown) {
+  terrain::Terrain site = flat({80, 40});
+  site = terrain::apply(site, {.kind = terrain::BrushKind::density,
+                               .points = {{20, -50}, {20, 90}},
+                               .radius_m = 20,
+                               .hardness = 1.0f,
+                               .density = 0.25f});
+  // So few and thin trees that they hardly stand in each other's way.
+  Planting p = planting(site, {{"a", 0.02f, {.min_spacing_m = 0}}}, {});
+  const Sown sown = sow(p, {.seed = 5, .block = 1, .mix = {{0}}}, whole(p), 1000);
+  const auto west = std::count_if(sown.trees.begin(), sown.trees.end(), [](const auto& t) { return t.at.x < 40; });
+  EXPECT_NEAR(static_cast<double>(west), 200, 4 * std::sqrt(1000 * 0.2 * 0.8));  // 1/4 to 1: a fifth
+}
+
+TEST(Sowing, StopsAndSaysSoWhenNoRoomIsLeft) {
+  Planting p = planting(flat({10, 10}), {species("a", {.min_spacing_m = 2.0f})}, {});
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0}}}, whole(p), 1000);
+  EXPECT_TRUE(sown.no_room);
+  EXPECT_EQ(sown.asked, 1000u);
+  EXPECT_GT(sown.trees.size(),
+            15u);  // random sequential packing covers 0.547: some 17 discs of radius 1, more at edges
+  EXPECT_LT(sown.trees.size(), 36u);
+  // What it closed on the way is open again, or the field would have drifted from its trees.
+  Planting again = planting(flat({10, 10}), {species("a", {.min_spacing_m = 2.0f})}, {});
+  for (const StandingTree& tree : sown.trees) again.add(tree);
+  EXPECT_EQ(p.field(0), again.field(0));
+}
+
+TEST(Sowing, ATypeWithoutRoomLeavesThePlaceToTheOthers) {
+  terrain::Terrain site = flat({30, 30});
+  Planting p = planting(site, {species("a", {.min_altitude_m = 100}), species("b")}, {});
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0, 9}, {1, 1}}}, whole(p), 50);
+  EXPECT_EQ(sown.trees.size(), 50u);
+  EXPECT_FALSE(sown.no_room);
+  for (const StandingTree& tree : sown.trees) EXPECT_EQ(tree.species, 1u);
+}
+
+TEST(Sowing, TypesAndScalesFollowTheMix) {
+  Planting p = planting(flat({200, 200}), {species("a", {.scale_min = 0.5f, .scale_max = 1.0f}), species("b")}, {});
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0, 3}, {1, 1, 2.0f, 3.0f}}}, whole(p), 2000);
+  double first = 0, scale = 0;
+  for (const StandingTree& tree : sown.trees) {
+    first += tree.species == 0;
+    EXPECT_TRUE(tree.species == 0 ? tree.scale >= 0.5f && tree.scale < 1 : tree.scale >= 2 && tree.scale < 3);
+    EXPECT_FLOAT_EQ(tree.trunk_radius_m, 0.2f * tree.scale);
+    if (tree.species == 0) scale += tree.scale;
+  }
+  EXPECT_NEAR(first, 1500, 4 * std::sqrt(2000 * 0.75 * 0.25));
+  EXPECT_NEAR(scale / first, 0.75, 4 * 0.5 / std::sqrt(12.0 * first));
+}
+
+TEST(Sowing, TheSameSeedAndBlockGiveTheSameTreesAndAnotherSeedOthers) {
+  const auto trees = [](std::uint64_t seed) {
+    Planting p = planting(flat({40, 40}));
+    return sow(p, {.seed = seed, .block = 1, .mix = {{0}, {1}}}, whole(p), 100).trees;
+  };
+  EXPECT_EQ(trees(1), trees(1));
+  EXPECT_NE(trees(1), trees(2));
+}
+
+// How many of the trees outside `changed` stand elsewhere when the site is another.
+double share_moved(const terrain::Terrain& before, const terrain::Terrain& after,
+                   const std::vector<Interaction>& interactions, const Region& changed, int count) {
+  std::map<std::uint64_t, Vec2> places;
+  Planting p = planting(before, {species("a"), species("b")}, interactions);
+  const Sowing what{.seed = 4, .block = 1, .mix = {{0}, {1}}};
+  for (const StandingTree& tree : sow(p, what, whole(p), static_cast<std::size_t>(count)).trees)
+    places[tree.key] = tree.at;
+  Planting q = planting(after, {species("a"), species("b")}, interactions);
+  double others = 0, moved = 0;
+  for (const StandingTree& tree : sow(q, what, whole(q), static_cast<std::size_t>(count)).trees) {
+    if (contains(changed, places[tree.key])) continue;
+    ++others;
+    moved += places[tree.key] != tree.at;
+  }
+  return moved / others;
+}
+
+TEST(Sowing, ExcludingFivePercentOfTheSiteMovesFewOfTheOtherTrees) {
+  const terrain::Terrain before = flat({100, 100});
+  for (const Box2 box : {Box2{{0, 0}, {22.36f, 22.36f}}, Box2{{40, 55}, {62.36f, 77.36f}}, Box2{{0, 30}, {100, 35}}}) {
+    Polygon area{{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}, {}};
+    const terrain::Terrain after = terrain::exclude(before, area);
+    EXPECT_LT(share_moved(before, after, {}, box, 400), 0.10) << box.low.x << ' ' << box.low.y;
+    EXPECT_GT(share_moved(before, after, {}, box, 400), 0.0);
+  }
+}
+
+TEST(Sowing, AFilledPolygonComesToTheDensityAskedForWhereTreesMayStand) {
+  Planting p = planting(flat({100, 100}), {species("a"), species("b")}, {});
+  const Region hectare_half = Polygon{{{10, 10}, {90, 10}, {90, 72.5f}, {10, 72.5f}}, {}};  // 5000 m2
+  const Sowing what{.seed = 1, .block = 1, .mix = {{0}}};
+  EXPECT_EQ(count_to_density(p, what, hectare_half, 400), 200u);
+  EXPECT_EQ(sow(p, what, hectare_half, 150).trees.size(), 150u);
+  EXPECT_EQ(count_to_density(p, what, hectare_half, 400), 50u);
+  EXPECT_EQ(count_to_density(p, what, hectare_half, 100), 0u);
+  EXPECT_EQ(count_to_density(p, {.mix = {{1}}}, hectare_half, 400), 200u);  // the other species' trees do not count
+
+  const terrain::Terrain half = terrain::exclude(flat({100, 100}), Polygon{{{0, 0}, {50, 0}, {50, 100}, {0, 100}}, {}});
+  Planting q = planting(half, {species("a")}, {});
+  EXPECT_NEAR(static_cast<double>(count_to_density(q, what, hectare_half, 400)), 100, 2);
+}
+
+TEST(Brush, TreesComeAtARateOfStrengthTimesSquaredRadiusTimesTime) {
+  const std::vector<Vec2> line{{20, 20}, {80, 80}};
+  for (const auto& [radius, strength, seconds] :
+       {std::tuple{5.0f, 0.5f, 4.0f}, {10.0f, 0.25f, 4.0f}, {5.0f, 1.0f, 8.0f}}) {
+    Planting p = planting(flat({100, 100}), {species("a")}, {});
+    const Sown sown =
+        sow_stroke(p, {.seed = 1, .block = 1, .mix = {{0}}}, {radius, strength, 0.2f}, steady_stroke(line, seconds));
+    EXPECT_EQ(sown.trees.size(), static_cast<std::size_t>(1 + 0.2f * strength * radius * radius * seconds));
+    for (const StandingTree& tree : sown.trees)
+      EXPECT_LE(std::abs(tree.at.x - tree.at.y) / std::sqrt(2.0f), radius + 0.01f);
+  }
+}
+
+TEST(Brush, AStrokeDoesNotDependOnHowManyEventsRecordedIt) {
+  std::vector<BrushEvent> sparse{{{20, 30}, 0}, {{80, 60}, 240}}, dense;
+  for (int n = 0; n <= 240; ++n) dense.push_back({Vec2{20, 30} + Vec2{60, 30} * (static_cast<float>(n) / 240.0f), n});
+  const auto trees = [](std::span<const BrushEvent> events) {
+    Planting p = planting(flat({100, 100}));
+    return sow_stroke(p, {.seed = 1, .block = 1, .mix = {{0}, {1}}}, {8, 1, 0.4f}, events).trees;
+  };
+  EXPECT_EQ(trees(sparse), trees(dense));
+  EXPECT_EQ(trees(sparse).size(), 103u);
+}
+
+TEST(Brush, AClickPlantsOneTreeUnderTheBrush) {
+  Planting p = planting(flat({100, 100}));
+  const BrushEvent click{{30, 40}, 0};
+  const Sown sown = sow_stroke(p, {.seed = 1, .block = 1, .mix = {{0}}}, {0.5f, 1, 0.2f}, {&click, 1});
+  ASSERT_EQ(sown.trees.size(), 1u);
+  EXPECT_LE(glm::distance(sown.trees[0].at, Vec2(30, 40)), 0.5f);
+}
+
+TEST(Brush, WhereThereIsNoRoomTreesAreLeftOutAndTheStrokeGoesOn) {
+  const terrain::Terrain site = terrain::exclude(flat({100, 20}), Polygon{{{30, 0}, {70, 0}, {70, 20}, {30, 20}}, {}});
+  Planting p = planting(site, {species("a")}, {});
+  const Sown sown = sow_stroke(p, {.seed = 1, .block = 1, .mix = {{0}}}, {3, 1, 1},
+                               steady_stroke(std::vector<Vec2>{{10, 10}, {90, 10}}, 10));
+  EXPECT_TRUE(sown.no_room);
+  EXPECT_LT(sown.trees.size(), sown.asked);
+  EXPECT_GT(sown.trees.back().at.x, 80);
+}
+
+TEST(Planting, InputThatContradictsItselfIsRefusedWithItsNames) {
+  const auto error = [](std::vector<Species> list, std::vector<Interaction> interactions) {
+    const auto made = Planting::make(flat({10, 10}), std::move(list), interactions);
+    return made ? std::string() : made.error().message;
+  };
+  EXPECT_NE(error({species("oak")}, {{"oak", "ash", KernelKind::clustering, 3, 3}}).find("'ash'"), std::string::npos);
+  EXPECT_NE(error({species("oak"), species("oak")}, {}).find("'oak'"), std::string::npos);
+  EXPECT_NE(error({species("oak", {.scale_min = 2, .scale_max = 1})}, {}).find("scale_min"), std::string::npos);
+  const Interaction twice{"oak", "oak", KernelKind::clustering, 3, 3};
+  EXPECT_NE(error({species("oak")}, {twice, twice}).find("two interactions"), std::string::npos);
+}
+
+TEST(Planting, TreesUnderANewExclusionStayAndAreListed) {
+  Planting p = planting(flat({30, 30}), {species("a")}, {});
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0}}}, whole(p), 100);
+  const terrain::Terrain path = terrain::exclude_path(p.terrain(), std::vector<Vec2>{{0, 15}, {30, 15}}, 4);
+  std::vector<std::uint64_t> expected;
+  for (const StandingTree& tree : sown.trees)
+    if (path.excluded(tree.at)) expected.push_back(tree.key);
+  std::sort(expected.begin(), expected.end());
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(displaced(path, p.trees()), expected);
+  EXPECT_TRUE(displaced(p.terrain(), p.trees()).empty());
+}
+
+TEST(Inventory, DuplicatesAreMovedApartByTheSumOfTheirTrunksAndNothingElseIsMoved) {
+  std::vector<StandingTree> trees;
+  for (std::uint64_t n = 0; n < 50; ++n)
+    trees.push_back({.key = n, .at = {static_cast<float>(n), 10.0f}, .trunk_radius_m = 0.3f});
+  trees[7].at = trees[3].at;
+  trees[20].at = trees[3].at;
+  trees[49].at = trees[48].at = Vec2{50, 50};  // in the site's corner
+  const std::vector<StandingTree> before = trees;
+  const auto moved = move_duplicates_apart(trees, {50, 50});
+  ASSERT_EQ(moved.size(), 3u);
+  EXPECT_EQ(moved[0].index, 7u);
+  EXPECT_EQ(moved[0].twin, 3u);
+  for (const MovedApart& m : moved) {
+    EXPECT_NEAR(glm::distance(m.from, m.to), 0.6f, 1e-5f);
+    EXPECT_EQ(trees[m.index].at, m.to);
+    EXPECT_TRUE(m.to.x <= 50 && m.to.y <= 50);
+  }
+  EXPECT_GT(glm::distance(trees[7].at, trees[20].at), kSamePlace_m);
+  int changed = 0;
+  for (std::size_t n = 0; n < trees.size(); ++n) changed += trees[n].at != before[n].at;
+  EXPECT_EQ(changed, 3);
+  std::vector<StandingTree> again = before;
+  move_duplicates_apart(again, {50, 50});
+  EXPECT_EQ(again, trees);
+}
+
+}  // namespace
+}  // namespace bosquet::distribution
