@@ -80,8 +80,8 @@ class Ridges {
     // Each border has its own depth and width.
     const float depth = 0.5f + 0.5f * cells_.random(hit.cell, hit.second, 1);
     const float half_width = 0.08f + 0.15f * cells_.random(hit.cell, hit.second, 2);
-    const float edge = hit.border + 0.06f * fine + 0.05f * fibre;
-    const float island = 1.0f - depth * (1.0f - smooth_step(0.3f * half_width, 2.0f * half_width, edge));
+    const float edge = hit.border + 0.09f * fine + 0.06f * fibre;
+    const float island = 1.0f - depth * (1.0f - smooth_step(0.4f * half_width, 1.6f * half_width, edge));
     // The net: where neither family stands, a furrow. A ridge weakens here and there.
     const float left = strand(around_ * wu + up_ * v + 0.55f * bend_left_(u, v), strength_(u, v), fine + fibre);
     const float right = strand(around_ * wu - up_ * v + 0.55f * bend_right_(u, v), strength_(v, u), fine - fibre);
@@ -93,13 +93,13 @@ class Ridges {
                         smooth_step(0.25f, 0.75f, crust_.random(block.cell, block.second, 1)) *
                         smooth_step(0.3f, 0.8f, body);
     const float plate = crust_.random(block.cell, 1) - 0.5f;
-    const float height = look_.furrow_depth_cm * (0.85f * body - 0.13f * split + 0.05f * plate * body + 0.06f * fine +
-                                                  0.05f * fibre + 0.05f * tone);
+    const float height = look_.furrow_depth_cm * (0.85f * body - 0.13f * split + 0.05f * plate * body + 0.09f * fine +
+                                                  0.07f * fibre + 0.05f * tone);
     // Dark below, weathered pale on the crests, freckled by the grain.
     const float lit = clamp01(body - 0.38f * split);
     Vec3 colour = glm::mix(palette_.furrow, palette_.top, lit * (0.30f + 0.70f * lit));
-    const float weather = 0.98f + 0.30f * (body - 0.6f) + 0.22f * plate + 0.14f * (tone - 0.5f) + 0.42f * fine +
-                          0.34f * fibre + 0.20f * broad;
+    const float weather = 0.98f + 0.30f * (body - 0.6f) + 0.22f * plate + 0.14f * (tone - 0.5f) + 0.75f * fine +
+                          0.55f * fibre + 0.20f * broad;
     colour *= std::max(0.25f, weather);
     const float growth = look_.lichen * smooth_step(0.05f, 0.45f, grain_.broad(v, u) + 0.45f * fine) * lit;
     return {height, glm::mix(colour, palette_.lichen * weather, 0.5f * growth)};
@@ -109,8 +109,8 @@ class Ridges {
   // A ridge's height at this phase across its family.
   static float strand(float phase, float strength, float rough) {
     const float whole = static_cast<float>(static_cast<int>(phase + 1024.0f)) - 1024.0f;
-    const float off = std::fabs(phase - whole - 0.5f) + 0.03f * rough;
-    return (0.80f + 0.55f * std::min(0.2f, strength)) * (1.0f - smooth_step(0.16f, 0.36f, off));
+    const float off = std::fabs(phase - whole - 0.5f) + 0.07f * rough;
+    return (0.80f + 0.55f * std::min(0.2f, strength)) * (1.0f - smooth_step(0.19f, 0.34f, off));
   }
 
   BarkLook look_;

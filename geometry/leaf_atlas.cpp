@@ -162,7 +162,18 @@ class Painter {
     if (dress_.leaves) {
       leaf(at);
     } else {
-      bud(at.node, 0.6f * at.angle_deg, std::max(0.003f, 1.6f * twig()));
+      // Half of the axils have grown a spur or a fine side twig.
+      const float size = std::max(0.003f, 1.4f * twig()), angle = 0.7f * at.angle_deg;
+      Vec2 end = at.node;
+      if (stream_.below(2) == 0) {
+        const Vec2 direction = heading(angle);
+        const float length = fitted(at.node, direction, at.length * stream_.uniform(0.3f, 0.9f) + size, 0.05f) - size;
+        if (length > 0.0f) {
+          end = at.node + direction * length;
+          canvas_.rod(at.node, end, 0.25f * twig(), 0.15f * twig(), dress_.twig, dress_.twig);
+        }
+      }
+      bud(end, angle, size);
     }
   }
 
@@ -258,7 +269,7 @@ class Painter {
       const float reach = (0.94f - 0.05f * std::fabs(place) - 0.16f * stream_.uniform()) * side;
       // Out from the common foot, then parallel.
       const float out = place * 25.0f + spread(4.0f);
-      const auto whip = shoot({0.0f, 0.0f}, out, -out * 1.45f, reach, 1.5f, 0.5f * twig(), 0.2f * twig(), leaves + 2);
+      const auto whip = shoot({0.0f, 0.0f}, out, -out * 1.3f, reach, 1.5f, 0.5f * twig(), 0.2f * twig(), leaves + 2);
       along(whip, 2, length, 27.0f, s % 2 == 0 ? 1 : -1);
     }
   }
@@ -300,7 +311,7 @@ class Painter {
       const auto i = static_cast<std::size_t>(x);
       return glm::mix(points[i], points[i + 1], x - static_cast<float>(i));
     };
-    const float this_year = 1.0f - std::min(0.5f, 0.05f / length);
+    const float this_year = 1.0f - std::min(0.4f, 0.04f / length);
     for (int layer = 0; layer < 3; ++layer) {
       if (layer == 1) {
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -331,7 +342,7 @@ class Painter {
       }
     }
     if (!dress_.leaves || season_ == Season::bare || season_ == Season::autumn)
-      bud(at(1.0f), angle_deg + bend_deg, 2.2f * radius + 0.003f);
+      bud(at(1.0f), angle_deg + bend_deg, 1.2f * radius + 0.002f);
   }
 
   const LeafLook& leaf_;

@@ -150,7 +150,7 @@ void describe_leaf(Parameters& p, Visitor& visit) {
   visit(Real{"leaf_translucency", "", 0, 1, "Share of the light on the back that shines through"}, p.translucency);
   visit(Choice{"twig_form", kClusterFormNames, "How leaves stand on a twig"}, p.cluster);
   visit(Real{"twig_cluster_m", "m", 0.05, 2, "Side of the square that shows a whole leafed twig"}, p.cluster_m);
-  visit(Whole{"twig_leaves", 3, 60, "Leaves of a whole twig, or side shoots of a needle spray"}, p.cluster_leaves);
+  visit(Whole{"twig_leaves", 3, 200, "Leaves of a whole twig, or side shoots of a needle spray"}, p.cluster_leaves);
   visit(Colour{"twig_colour", "Bark of the thinnest twigs"}, p.twig_colour);
   visit(Colour{"twig_bud_colour", "Winter buds"}, p.bud_colour);
   visit(Real{"twig_mm", "mm", 0.5, 20, "Diameter at the foot of a leafed twig"}, p.twig_mm);

@@ -15,9 +15,11 @@ int floor_int(float x) {
   return static_cast<float>(i) > x ? i - 1 : i;
 }
 
+// Points lie in or near the tile, so this takes a step or two where % takes a division.
 int wrap(int i, int n) {
-  i %= n;
-  return i < 0 ? i + n : i;
+  while (i >= n) i -= n;
+  while (i < 0) i += n;
+  return i;
 }
 
 float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
@@ -89,11 +91,12 @@ TileCells::Hit TileCells::operator()(float u, float v) const {
     std::uint32_t cell;
     float d2;
   } candidates[15];
-  int count = 0, best = 0;
+  int count = 0, best = 0, columns[5];
+  for (int dx = -2; dx <= 2; ++dx) columns[dx + 2] = wrap(xi + dx, nx_);
   for (int dy = -1; dy <= 1; ++dy) {
     const int y = yi + dy, wy = wrap(y, ny_);
     for (int dx = -2; dx <= 2; ++dx) {
-      const int x = xi + dx, wx = wrap(x, nx_);
+      const int x = xi + dx, wx = columns[dx + 2];
       const auto cell = static_cast<std::uint32_t>(wy * nx_ + wx);
       const Vec2 to{centres_[cell].x + static_cast<float>(x - wx) - px,
                     centres_[cell].y + static_cast<float>(y - wy) - py};
