@@ -13,7 +13,9 @@ namespace {
 struct Level {
   int width, height;
   std::vector<Vec4> texels;
-  Vec4& at(int x, int y) { return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+  Vec4& at(int x, int y) {
+    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
   const Vec4& at(int x, int y) const { return const_cast<Level&>(*this).at(x, y); }
 };
 

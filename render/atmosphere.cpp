@@ -12,22 +12,27 @@ namespace {
 constexpr float kGroundRadius = 6360.0f, kTopRadius = 6460.0f;
 const Vec3 kRayleigh(5.802e-3f, 13.558e-3f, 33.1e-3f);
 constexpr float kRayleighScale = 8.0f;
-constexpr float kMieScattering = 3.996e-3f, kMieExtinction = 4.44e-3f, kMieScale = 1.2f;
+constexpr float kMieScale = 1.2f;
 constexpr float kMieForward = 0.76f;
 const Vec3 kOzone(0.650e-3f, 1.881e-3f, 0.085e-3f);
 
 /// The viewer stands this high, so that the horizon is not inside the ground.
 constexpr float kViewerRadius = kGroundRadius + 0.05f;
 
-/// A turbidity of 2 is the clear day these dust coefficients describe.
+/// Turbidity is the optical depth of air and dust over that of air alone, at 550 nm; continental dust dims blue more
+/// (Angstrom exponent 1.3) and absorbs a tenth of what it takes out.
+constexpr float kAirDepth = 0.098f;
+const Vec3 kDustByColour(0.76f, 1.0f, 1.34f);
+constexpr float kDustAlbedo = 0.9f;
+
 struct Air {
-  float dust;  ///< multiplies the dust coefficients
+  float dust;  ///< extinction at the ground, per km, at 550 nm
 
   Vec3 rayleigh(float height) const { return kRayleigh * std::exp(-height / kRayleighScale); }
-  float mie(float height) const { return dust * std::exp(-height / kMieScale); }
+  Vec3 mie_extinction(float height) const { return kDustByColour * (dust * std::exp(-height / kMieScale)); }
   Vec3 extinction(float height) const {
     const float ozone = std::max(0.0f, 1.0f - std::abs(height - 25.0f) / 15.0f);
-    return rayleigh(height) + Vec3(kMieExtinction * mie(height)) + kOzone * ozone;
+    return rayleigh(height) + mie_extinction(height) + kOzone * ozone;
   }
 };
 
@@ -36,7 +41,9 @@ float to_sphere(float r, float mu, float radius) {
   return -r * mu + std::sqrt(std::max(0.0f, r * r * (mu * mu - 1.0f) + radius * radius));
 }
 
-bool hits_ground(float r, float mu) { return mu < 0.0f && r * r * (mu * mu - 1.0f) + kGroundRadius * kGroundRadius > 0; }
+bool hits_ground(float r, float mu) {
+  return mu < 0.0f && r * r * (mu * mu - 1.0f) + kGroundRadius * kGroundRadius > 0;
+}
 
 float to_ground(float r, float mu) {
   return -r * mu - std::sqrt(std::max(0.0f, r * r * (mu * mu - 1.0f) + kGroundRadius * kGroundRadius));
@@ -75,7 +82,8 @@ class SunThroughAir {
   }
 
   Vec3 operator()(float r, float mu) const {
-    const float x = std::sqrt(std::clamp((r - kGroundRadius) / (kTopRadius - kGroundRadius), 0.0f, 1.0f)) * (kHeights - 1);
+    const float x =
+        std::sqrt(std::clamp((r - kGroundRadius) / (kTopRadius - kGroundRadius), 0.0f, 1.0f)) * (kHeights - 1);
     const float y = std::clamp((mu + 0.25f) / 1.25f, 0.0f, 1.0f) * (kCosines - 1);
     const auto i = std::min(static_cast<std::size_t>(x), kHeights - 2);
     const auto j = std::min(static_cast<std::size_t>(y), kCosines - 2);
@@ -133,10 +141,11 @@ struct Scattering {
       const Vec3 at = from + ray * t;
       const float radius = glm::length(at), height = std::max(radius - kGroundRadius, 0.0f);
       const Vec3 rayleigh = air.rayleigh(height);
-      const Vec3 mie(kMieScattering * air.mie(height));
+      const Vec3 mie = air.mie_extinction(height) * kDustAlbedo;
       const Vec3 extinction = air.extinction(height);
       const Vec3 sunlight = sun(radius, glm::dot(at, to_sun) / radius);
-      const Vec3 source = sunlight * (rayleigh * rayleigh_phase + mie * mie_phase) + (rayleigh + mie) * multiple_at(height);
+      const Vec3 source =
+          sunlight * (rayleigh * rayleigh_phase + mie * mie_phase) + (rayleigh + mie) * multiple_at(height);
       const Vec3 across = exp_of(-extinction * step);
       const Vec3 weight = sum.through * (Vec3(1.0f) - across) / glm::max(extinction, Vec3(1e-9f));
       sum.light += source * weight;
@@ -199,7 +208,7 @@ Vec3 Atmosphere::ambient_irradiance(const Vec3& normal) const {
 Atmosphere make_atmosphere(const scene::Sun& sun, float turbidity, const Vec3& ground_albedo) {
   Atmosphere out;
   out.to_sun = sun.direction();
-  const Air air{std::max(0.05f, turbidity - 1.0f) / 1.2f};
+  const Air air{kAirDepth * std::max(0.05f, turbidity - 1.0f) / kMieScale};
   const SunThroughAir through(air);
   Scattering scattering{air, through, out.to_sun, ground_albedo};
 
@@ -246,8 +255,7 @@ Atmosphere make_atmosphere(const scene::Sun& sun, float turbidity, const Vec3& g
     const Vec3 ray = spread_direction(d, kDirections);
     if (ray.y > 0) out.sky_irradiance += out.sky(ray) * (ray.y * kSolidAngle);
   }
-  const Vec3 ground =
-      ground_albedo / kPi * (out.sky_irradiance + out.sun_irradiance * std::max(0.0f, out.to_sun.y));
+  const Vec3 ground = ground_albedo / kPi * (out.sky_irradiance + out.sun_irradiance * std::max(0.0f, out.to_sun.y));
   for (int d = 0; d < kDirections; ++d) {
     const Vec3 ray = spread_direction(d, kDirections);
     const Vec3 light = ray.y > 0 ? out.sky(ray) : ground;

@@ -62,8 +62,7 @@ scene::Camera frame(const Box3& box, float aspect, float elevation_deg, float az
   }
   float distance = std::max((right_bound + left_bound) / (2 * tan_right), (high_bound + low_bound) / (2 * tan_up));
   distance = std::max(distance, 0.05f);
-  const Vec3 centre =
-      box.centre() + right * ((right_bound - left_bound) / 2) + up * ((high_bound - low_bound) / 2);
+  const Vec3 centre = box.centre() + right * ((right_bound - left_bound) / 2) + up * ((high_bound - low_bound) / 2);
   camera.eye = centre + back * distance;
   camera.target = centre;
   return camera;

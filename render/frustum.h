@@ -12,8 +12,8 @@ inline bool may_be_seen(const Mat4& world_to_clip, const Box3& box, bool skip_ne
   for (unsigned i = 0; i < 8; ++i) {
     const Vec4 p = world_to_clip * Vec4(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
                                         i & 4 ? box.high.z : box.low.z, 1.0f);
-    outside[0] += p.x < -p.w, outside[1] += p.x > p.w;
-    outside[2] += p.y < -p.w, outside[3] += p.y > p.w;
+    outside[0] += p.x<-p.w, outside[1] += p.x> p.w;
+    outside[2] += p.y<-p.w, outside[3] += p.y> p.w;
     outside[4] += p.z < -p.w && !skip_near, outside[5] += p.z > p.w;
   }
   for (const int count : outside)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <string>
@@ -78,6 +79,12 @@ GpuMesh upload_mesh(const TriangleMesh& mesh) {
   return out;
 }
 
+/// Mesa's software drivers take ten times as long over anisotropic textures.
+bool drawn_by_software() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
+
 GlTexture upload_chain(const std::vector<Image>& chain, bool srgb, bool anisotropic) {
   GlTexture texture = GlTexture::make();
   glBindTexture(GL_TEXTURE_2D, texture.name());
@@ -88,7 +95,7 @@ GlTexture upload_chain(const std::vector<Image>& chain, bool srgb, bool anisotro
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(chain.size()) - 1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  if (anisotropic) {
+  if (anisotropic && !drawn_by_software()) {
     glTexParameterf(GL_TEXTURE_2D, kMaxAnisotropy, kAnisotropy);
     glGetError();
   }
@@ -162,6 +169,7 @@ Result<GpuModel> GpuModel::make(const scene::Model& model) {
     material.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
     material.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
     material.double_sided = m.double_sided;
+    if (material.shader == Shader::ground && !out.ground_material) out.ground_material = out.materials.size();
     out.materials.push_back(material);
   }
 
@@ -174,8 +182,8 @@ Result<GpuModel> GpuModel::make(const scene::Model& model) {
       const auto [found, is_new] = mesh_index.try_emplace(part.mesh.get(), out.meshes.size());
       if (is_new) out.meshes.push_back(upload_mesh(*part.mesh));
       const Box3& own = out.meshes[found->second].box;
-      out.drawables.push_back({found->second, part.material, node.translation,
-                               {own.low + node.translation, own.high + node.translation}});
+      out.drawables.push_back(
+          {found->second, part.material, node.translation, {own.low + node.translation, own.high + node.translation}});
     }
 
   out.overhead = make_overhead(model, out.box);
@@ -185,7 +193,8 @@ Result<GpuModel> GpuModel::make(const scene::Model& model) {
   map.cover = {}, map.ground = {};
 
   if (glGetError() == GL_OUT_OF_MEMORY)
-    return cannot_finish("the scene does not fit into graphics memory; export or draw it with a smaller triangle budget");
+    return cannot_finish(
+        "the scene does not fit into graphics memory; export or draw it with a smaller triangle budget");
   return out;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/result.h"
@@ -53,8 +54,9 @@ struct GpuModel {
   std::vector<GlTexture> textures;
   std::vector<GpuMaterial> materials;
   std::vector<Drawable> drawables;
-  GlTexture cover, ground;  ///< the maps of Overhead
-  Overhead overhead;        ///< its two maps emptied
+  GlTexture cover, ground;                     ///< the maps of Overhead
+  Overhead overhead;                           ///< its two maps emptied
+  std::optional<std::size_t> ground_material;  ///< the first one, whose texture the land around bears too
   Box3 box;
   scene::Sun sun;
 

@@ -14,14 +14,22 @@ namespace {
 
 std::string egl_error_name() {
   switch (const EGLint code = eglGetError(); code) {
-    case EGL_SUCCESS: return "no error given";
-    case EGL_NOT_INITIALIZED: return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ALLOC: return "EGL_BAD_ALLOC";
-    case EGL_BAD_MATCH: return "EGL_BAD_MATCH";
-    case EGL_BAD_DISPLAY: return "EGL_BAD_DISPLAY";
-    case EGL_BAD_PARAMETER: return "EGL_BAD_PARAMETER";
-    case EGL_BAD_ATTRIBUTE: return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG: return "EGL_BAD_CONFIG";
+    case EGL_SUCCESS:
+      return "no error given";
+    case EGL_NOT_INITIALIZED:
+      return "EGL_NOT_INITIALIZED";
+    case EGL_BAD_ALLOC:
+      return "EGL_BAD_ALLOC";
+    case EGL_BAD_MATCH:
+      return "EGL_BAD_MATCH";
+    case EGL_BAD_DISPLAY:
+      return "EGL_BAD_DISPLAY";
+    case EGL_BAD_PARAMETER:
+      return "EGL_BAD_PARAMETER";
+    case EGL_BAD_ATTRIBUTE:
+      return "EGL_BAD_ATTRIBUTE";
+    case EGL_BAD_CONFIG:
+      return "EGL_BAD_CONFIG";
     default: {
       char text[32];
       std::snprintf(text, sizeof text, "EGL error 0x%04x", static_cast<unsigned>(code));
@@ -70,13 +78,9 @@ Attempt try_display(EGLDisplay display, const std::string& name) {
     eglTerminate(display);
     return attempt;
   }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               3,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               3,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_NONE};
+  const EGLint attributes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     GLint gl_major = 0, gl_minor = 0;
@@ -145,8 +149,8 @@ Result<HeadlessContext> HeadlessContext::create() {
   };
 
   if (contains(client, "EGL_MESA_platform_surfaceless")) {
-    if (auto state = keep(try_display(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY),
-                                      "surfaceless platform")))
+    if (auto state = keep(
+            try_display(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY), "surfaceless platform")))
       return HeadlessContext(std::move(state));
   }
   if (contains(client, "EGL_EXT_platform_device") && contains(client, "EGL_EXT_device_enumeration")) {
@@ -155,8 +159,8 @@ Result<HeadlessContext> HeadlessContext::create() {
     EGLint count = 0;
     if (query && query(8, devices, &count))
       for (EGLint i = 0; i < count; ++i)
-        if (auto state = keep(try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i]),
-                                          "device " + std::to_string(i))))
+        if (auto state =
+                keep(try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices[i]), "device " + std::to_string(i))))
           return HeadlessContext(std::move(state));
   }
   if (tried.empty())

@@ -25,8 +25,7 @@ ViewVolume make_view_volume(const View& view, const Box3& scene) {
 
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
   v.orthographic = view.orthographic_height_m > 0;
-  v.half_height =
-      v.orthographic ? view.orthographic_height_m / 2 : std::tan(radians(view.camera.vertical_fov_deg) / 2);
+  v.half_height = v.orthographic ? view.orthographic_height_m / 2 : std::tan(radians(view.camera.vertical_fov_deg) / 2);
   v.half_width = v.half_height * aspect;
 
   const Vec2 depths = scene.empty() ? Vec2(1, 10) : depth_range(v.eye, v.forward, scene);

@@ -12,6 +12,9 @@ namespace {
 constexpr float kSmallDiscM = 1.0f, kLargeDiscM = 4.5f;
 constexpr float kSmallestCellM = 0.1f;
 
+/// The ground this near to its edge colours the land around.
+constexpr float kEdgeShare = 0.02f;
+
 /// Calls put(cell index, height) for the cells whose centre lies under a triangle, and for the cell of its centroid.
 template <class Put>
 void rasterise(const Overhead& map, const Vec3& a, const Vec3& b, const Vec3& c, const Put& put) {
@@ -101,7 +104,7 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
   map.ground.assign(cells, kNothing);
   std::vector<float> top(cells, kNothing);
   float water_area = 0;
-  glm::dvec4 albedo(0.0);
+  glm::dvec4 albedo(0.0), edge_tint(0.0);
   for (const scene::Node& node : model.nodes)
     for (const scene::Part& part : node.parts) {
       if (!part.mesh) continue;
@@ -123,14 +126,19 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
                   mesh.positions[mesh.indices[i + 2]] + node.translation,
                   [&](std::size_t cell, float height) { heights[cell] = std::max(heights[cell], height); });
       if (ground && !mesh.positions.empty()) {
-        const Vec3 texture = mean_colour(material);
-        const std::size_t step = std::max<std::size_t>(1, mesh.colours.size() / 4096);
-        for (std::size_t i = 0; i < std::max<std::size_t>(1, mesh.colours.size()); i += step) {
-          const Vec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
-          albedo += glm::dvec4(glm::dvec3(texture * tint), 1.0);
+        const Vec3 texture = mean_colour(material), factor(material.base_factor);
+        const Box3 box = mesh.bounds();
+        const Vec3 rim = kEdgeShare * box.size();
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+          const glm::dvec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
+          albedo += glm::dvec4(glm::dvec3(texture) * tint, 1.0);
+          const Vec3 from_low = mesh.positions[i] - box.low, from_high = box.high - mesh.positions[i];
+          if (std::min(from_low.x, from_high.x) <= rim.x || std::min(from_low.z, from_high.z) <= rim.z)
+            edge_tint += glm::dvec4(glm::dvec3(factor) * tint, 1.0);
         }
       }
     }
+  if (edge_tint.w > 0) map.land_tint = Vec3(glm::dvec3(edge_tint) / edge_tint.w);
   if (albedo.w > 0) map.ground_albedo = Vec3(glm::dvec3(albedo) / albedo.w);
 
   // The land around lies as high as the ground's edge in the middle.

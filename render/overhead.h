@@ -26,6 +26,7 @@ struct Overhead {
 
   float land_height = 0.0f;            ///< of plain land around the site: median of the ground along the site's edge
   Vec3 ground_albedo{0.16f};           ///< mean of the ground's base colour, linear
+  Vec3 land_tint{0.16f};               ///< of plain land around: what the ground's edge multiplies its texture by
   std::optional<float> water_level_m;  ///< of the largest water surface
 
   Vec2 size() const { return cell * Vec2(columns, rows); }

@@ -28,10 +28,19 @@ constexpr int kTileLimit = 4096;
 
 /// Exposure puts a surface of 0.18 / kBrightness that lies open to the sky at the middle of the tone curve: plants
 /// reflect about a tenth.
-constexpr float kBrightness = 1.35f;
+constexpr float kBrightness = 1.6f;
 
-/// Lottes 2016, "Advanced techniques and optimization of HDR color pipelines": contrast, shoulder, and the curve through
-/// (middle grey, middle out) and (brightest, 1).
+/// How far the eye adapts to the colour of the light.
+constexpr float kWhiteBalance = 0.6f;
+
+/// Woods around the site are at least this far away.
+constexpr float kWoodsM = 700.0f;
+
+/// The land around bears the ground's texture at this many metres a tile.
+constexpr float kLandTileM = 3.0f;
+
+/// Lottes 2016, "Advanced techniques and optimization of HDR color pipelines": contrast, shoulder, and the curve
+/// through (middle grey, middle out) and (brightest, 1).
 Vec4 tone_curve() {
   constexpr float contrast = 1.22f, shoulder = 0.975f, grey = 0.18f, grey_out = 0.20f, brightest = 9.0f;
   const float grey_a = std::pow(grey, contrast), bright_a = std::pow(brightest, contrast);
@@ -159,16 +168,17 @@ Result<Image> Renderer::draw(const View& view) {
       for (int column = 0; column < w / n; ++column) {
         std::uint8_t* out = picture.at(x / n + column, to_y);
         if (n == 1) {
-          const std::uint8_t* in =
-              pixels.data() + 4 * (static_cast<std::size_t>(below) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column));
+          const std::uint8_t* in = pixels.data() + 4 * (static_cast<std::size_t>(below) * static_cast<std::size_t>(w) +
+                                                        static_cast<std::size_t>(column));
           std::copy(in, in + 4, out);
           continue;
         }
         Vec4 sum(0.0f);
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i) {
-            const std::uint8_t* in = pixels.data() + 4 * (static_cast<std::size_t>(below + j) * static_cast<std::size_t>(w) +
-                                                          static_cast<std::size_t>(column * n + i));
+            const std::uint8_t* in =
+                pixels.data() + 4 * (static_cast<std::size_t>(below + j) * static_cast<std::size_t>(w) +
+                                     static_cast<std::size_t>(column * n + i));
             sum += Vec4(linear_of_srgb(in[0]), linear_of_srgb(in[1]), linear_of_srgb(in[2]), static_cast<float>(in[3]));
           }
         for (int c = 0; c < 3; ++c) out[c] = srgb_of_linear(sum[c] * share);
@@ -211,8 +221,7 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
     if (!shadow.fit(std::min<int>(size, largest_target), kCascades))
       return cannot_finish("the graphics driver refuses shadow maps of " + std::to_string(size) + " x " +
                            std::to_string(size) + " texels");
-    const std::vector<Cascade> cascades =
-        fit_cascades(volume, model.box, Vec3(block.to_sun), kCascades, shadow.size());
+    const std::vector<Cascade> cascades = fit_cascades(volume, model.box, Vec3(block.to_sun), kCascades, shadow.size());
     for (int c = 0; c < kCascades; ++c) {
       const Cascade& cascade = cascades[static_cast<std::size_t>(c)];
       Mat4 from_eye(1.0f);
@@ -326,20 +335,27 @@ FrameBlock Renderer::State::light_block(const View& view, const ViewVolume& volu
   const float falling = luminance(air.sun_irradiance) * std::max(to_sun.y, 0.5f) + luminance(air.sky_irradiance);
   const float exposure = kBrightness * kPi / std::max(falling, 1e-4f) * std::exp2(view.look.exposure_ev);
 
+  // White balance: most of the way to where level ground in the open is white, so that evenings stay warm.
+  const Vec3 level = air.sun_irradiance * std::max(to_sun.y, 0.25f) + air.sky_irradiance;
+  const Vec3 gain = exposure * glm::pow(glm::max(Vec3(luminance(level)) / glm::max(level, Vec3(1e-5f)), Vec3(0.2f)),
+                                        Vec3(kWhiteBalance));
+
   FrameBlock block{};
   block.cascade_far.w = to_sun.y > 0.02f && !model.drawables.empty() ? static_cast<float>(kCascades) : 0.0f;
   block.eye = Vec4(volume.eye, 1);
   block.forward = Vec4(volume.forward, 0);
-  block.to_sun = Vec4(to_sun, exposure);
-  block.sun_light = Vec4(air.sun_irradiance * exposure, 0);
-  block.sky_light = Vec4(air.sky_irradiance * exposure, 0);
-  for (std::size_t i = 0; i < 9; ++i) block.ambient[i] = Vec4(air.ambient[i] * exposure, 0);
+  block.to_sun = Vec4(to_sun, 0);
+  block.gain = Vec4(gain, 0);
+  block.sun_light = Vec4(air.sun_irradiance * gain, 0);
+  block.sky_light = Vec4(air.sky_irradiance * gain, 0);
+  for (std::size_t i = 0; i < 9; ++i) block.ambient[i] = Vec4(air.ambient[i] * gain, 0);
   block.air = Vec4(1 / view.look.haze_distance_m, view.look.clouds, view.look.ripples, 1);
   block.tone = tone_curve();
   const Overhead& over = model.overhead;
   block.over_area = Vec4(over.low, 1.0f / over.size());
   block.over_height = Vec4(over.base, 1 / over.scale, over.land_height, view.look.surroundings ? 1 : 0);
-  block.land_albedo = Vec4(over.ground_albedo, 1);
+  const float site = glm::length(over.size());
+  block.land_albedo = Vec4(over.ground_albedo, std::max(kWoodsM, 1.2f * site));
   block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_level_m ? 1 : 0, 0, 0);
   block.shading = Vec4(static_cast<float>(view.shading), static_cast<float>(facts.samples), 0, 0);
   return block;
@@ -398,8 +414,7 @@ void Renderer::State::draw_parts(const Program& program, Shader shader, const st
       if (base_factor >= 0) glUniform4fv(base_factor, 1, &m.base_factor[0]);
       // Without a texture only the factor's alpha is left to cut by.
       const float cutoff = m.base_colour ? m.cutoff : 0.0f;
-      if (material_at >= 0)
-        glUniform4f(material_at, m.roughness, cutoff, m.translucency, m.double_sided ? 1.0f : 0.0f);
+      if (material_at >= 0) glUniform4f(material_at, m.roughness, cutoff, m.translucency, m.double_sided ? 1.0f : 0.0f);
       if (maps >= 0) glUniform2f(maps, m.base_colour ? 1.0f : 0.0f, m.normal ? 1.0f : 0.0f);
     }
     const GpuMaterial& m = model.materials[current];
@@ -419,11 +434,12 @@ void Renderer::State::draw_parts(const Program& program, Shader shader, const st
 
 void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn) {
   set_frame(block);
-  const std::pair<GLint, std::pair<GLenum, GLuint>> bound[] = {{kUnitShadow, {GL_TEXTURE_2D_ARRAY, shadow.texture()}},
-                                                               {kUnitSky, {GL_TEXTURE_2D, sky.name()}},
-                                                               {kUnitCover, {GL_TEXTURE_2D, model.cover.name()}},
-                                                               {kUnitGround, {GL_TEXTURE_2D, model.ground.name()}},
-                                                               {kUnitMirror, {GL_TEXTURE_2D, block.water.z > 0 ? mirror.texture() : 0}}};
+  const std::pair<GLint, std::pair<GLenum, GLuint>> bound[] = {
+      {kUnitShadow, {GL_TEXTURE_2D_ARRAY, shadow.texture()}},
+      {kUnitSky, {GL_TEXTURE_2D, sky.name()}},
+      {kUnitCover, {GL_TEXTURE_2D, model.cover.name()}},
+      {kUnitGround, {GL_TEXTURE_2D, model.ground.name()}},
+      {kUnitMirror, {GL_TEXTURE_2D, block.water.z > 0 ? mirror.texture() : 0}}};
   for (const auto& [unit, texture] : bound) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(texture.first, texture.second);
@@ -465,6 +481,12 @@ void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volu
   glDisable(GL_CULL_FACE);
   if (sky_drawn) {
     glUseProgram(programs.sky.name());
+    const GLuint texture = model.ground_material ? model.materials[*model.ground_material].base_colour : 0;
+    glActiveTexture(GL_TEXTURE0 + kUnitColour);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    const Vec3& tint = model.overhead.land_tint;
+    glUniform4f(programs.sky.uniform("base_factor"), tint.r, tint.g, tint.b, 1 / kLandTileM);
+    glUniform2f(programs.sky.uniform("maps"), texture ? 1.0f : 0.0f, 0.0f);
     glBindVertexArray(nothing.name());
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, 3);

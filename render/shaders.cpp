@@ -14,7 +14,7 @@ layout(std140) uniform Frame {
   vec4 cascade_far, cascade_texel, cascade_depth;
   vec4 eye, view_point, forward;
   vec4 ray_right, ray_up, ray_forward;
-  vec4 to_sun, sun_light, sky_light;
+  vec4 to_sun, gain, sun_light, sky_light;
   vec4 ambient[9];
   vec4 air, tone;
   vec4 over_area, over_height, land_albedo;
@@ -66,7 +66,7 @@ vec3 clear_sky(vec3 direction) {
   float elevation = asin(clamp(direction.y, 0.0, 1.0));
   float both = length(direction.xz) * length(to_sun.xz);
   float azimuth = both > 1e-6 ? acos(clamp(dot(direction.xz, to_sun.xz) / both, -1.0, 1.0)) : 0.0;
-  return texture(sky_map, vec2(sqrt(azimuth / pi), sqrt(elevation * 2.0 / pi))).rgb * to_sun.w;
+  return texture(sky_map, vec2(sqrt(azimuth / pi), sqrt(elevation * 2.0 / pi))).rgb * gain.rgb;
 }
 
 // Colour of distant air in a direction.
@@ -104,6 +104,7 @@ float lit_by_cascade(int c, vec3 relative, vec3 normal, float widen) {
   vec3 lifted = relative + normal * (texel * (0.6 + 1.4 * slope)) + to_sun.xyz * (texel * 1.0 + 0.01);
   vec3 p = (relative_to_shadow[c] * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
   if (any(greaterThan(abs(p.xy - 0.5), vec2(0.5)))) return 1.0;
+  p.z = clamp(p.z, 0.0, 0.99999);  // what lies beyond the map is in nobody's shade
   // A penumbra of some 10 cm, at least a texel and a half so that the map's steps do not show.
   float size = 1.0 / float(textureSize(shadow_map, 0).x);
   vec2 radius = vec2(size * clamp(widen / texel, 1.5, 5.0));
@@ -158,6 +159,19 @@ void main() {
   v_colour = colour.rgb;
   gl_Position = relative_to_clip * vec4(v_relative, 1.0);
   gl_ClipDistance[0] = dot(clip, vec4(v_relative, 1.0));
+}
+)";
+
+const char* const kGround = R"(
+// A tiling texture at two scales, turned against each other so that it does not seem to repeat.
+vec3 ground_texture(sampler2D map, vec2 uv) {
+  return mix(texture(map, uv).rgb, texture(map, mat2(0.259, 0.143, -0.143, 0.259) * uv + 0.37).rgb, 0.45);
+}
+// Ground is never even: drier and lusher patches over many metres.
+vec3 ground_patches(vec2 p) {
+  float wide = layered_noise(p / 38.0) - 0.5, near = layered_noise(p / 7.0 + 31.0) - 0.5;
+  return (1.0 + 0.35 * wide + 0.22 * near) *
+         mix(vec3(1.10, 1.0, 0.82), vec3(0.92, 1.02, 0.98), clamp(0.5 + 1.6 * wide + 0.6 * near, 0.0, 1.0));
 }
 )";
 
@@ -244,7 +258,7 @@ void main() {
   float lit = sunlit(v_relative, sunward, 0.12);
   float open = mix(0.34, 1.0, open_sky(v_relative + eye.xyz));
   // Light that comes through a leaf is yellower: chlorophyll lets green and some red pass.
-  vec3 through = pow(albedo, vec3(0.85)) * vec3(1.10, 1.15, 0.55) * material.z;
+  vec3 through = pow(albedo, vec3(0.9)) * vec3(1.05, 1.0, 0.6) * material.z;
   vec3 kept = albedo * (1.0 - 0.35 * material.z);
   vec3 light = sun_light.rgb * lit * (kept * max(nl, 0.0) + through * max(-nl, 0.0));
   light += open * (kept * ambient_light(n) + 0.6 * through * ambient_light(-n));
@@ -258,20 +272,11 @@ void main() {
 const char* const kGroundMain = R"(
 void main() {
   vec3 world = v_relative + eye.xyz;
-  vec3 texel = vec3(1.0);
-  if (maps.x > 0.5) {
-    // The texture at two scales, turned against each other, hides that it repeats.
-    vec3 fine = texture(colour_map, v_uv).rgb;
-    vec3 coarse = texture(colour_map, mat2(0.259, 0.143, -0.143, 0.259) * v_uv + 0.37).rgb;
-    texel = mix(fine, coarse, 0.45);
-  }
+  vec3 texel = maps.x > 0.5 ? ground_texture(colour_map, v_uv) : vec3(1.0);
   vec3 albedo = texel * base_factor.rgb * v_colour;
   if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
   if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
-  // Ground is never even: drier and lusher patches over many metres.
-  float wide = layered_noise(world.xz / 38.0) - 0.5, near = layered_noise(world.xz / 7.0 + 31.0) - 0.5;
-  albedo *= 1.0 + 0.35 * wide + 0.22 * near;
-  albedo *= mix(vec3(1.10, 1.0, 0.82), vec3(0.92, 1.02, 0.98), clamp(0.5 + 1.6 * wide + 0.6 * near, 0.0, 1.0));
+  albedo *= ground_patches(world.xz);
   // Soaked at the water's edge.
   float wet = water.y > 0.5 ? 1.0 - smoothstep(0.02, 0.30, world.y - water.x) : 0.0;
   albedo *= 1.0 - 0.45 * wet;
@@ -333,7 +338,7 @@ void main() {
   if (water.z > 0.5) {
     vec2 at = gl_FragCoord.xy / target.xy;
     // A tilt by s moves the mirror image by about 2 s of the depth of what is mirrored, here some 12 m behind.
-    vec2 side = vec2(dot(slope, normalize(ray_right.xz + 1e-6)), dot(slope, normalize(ray_forward.xz + 1e-6)));
+    vec2 side = vec2(0.6 * dot(slope, normalize(ray_right.xz + 1e-6)), dot(slope, normalize(ray_forward.xz + 1e-6)));
     float shift = 2.0 * 12.0 / (distance_m + 12.0);
     vec2 tangent = vec2(length(ray_right.xyz), length(ray_up.xyz));
     at += vec2(side.x, -side.y) * shift * 0.5 / tangent;
@@ -344,10 +349,10 @@ void main() {
   float bed = texture(ground_map, (world.xz - over_area.xy) * over_area.zw).r;
   float depth_m = max(water.x - bed, 0.0);
   float way = depth_m / max(0.35, sqrt(1.0 - (1.0 - nv * nv) / 1.77)) + depth_m;
-  vec3 passed = exp(-way * vec3(1.35, 0.75, 0.95));
+  vec3 passed = exp(-way * vec3(2.2, 1.3, 1.6));
   float lit = sunlit(v_relative, vec3(0.0, 1.0, 0.0), 0.4);
   float open = mix(0.4, 1.0, open_sky(world));
-  vec3 murk = vec3(0.020, 0.034, 0.024) * (sky_light.rgb * open + sun_light.rgb * (max(to_sun.y, 0.0) * mix(0.4, 1.0, lit))) / pi;
+  vec3 murk = vec3(0.030, 0.044, 0.034) * (sky_light.rgb * open + sun_light.rgb * (max(to_sun.y, 0.0) * mix(0.4, 1.0, lit))) / pi;
 
   // The sun's path on the water, spread by ripples too fine to see.
   vec3 h = normalize(v + to_sun.xyz);
@@ -379,6 +384,9 @@ void main() {
 
 const char* const kSkyFragment = R"(
 in vec2 v_screen;
+uniform sampler2D colour_map;
+uniform vec4 base_factor;
+uniform vec2 maps;
 out vec4 out_colour;
 
 vec3 sky(vec3 d) {
@@ -399,25 +407,49 @@ vec3 sky(vec3 d) {
   return light;
 }
 
+// A belt of woods far away: share of a pixel it fills, its crowns' tops by noise along the horizon.
+float woods(vec2 heading, float climb, float far_m, float least_m, float most_m, float seed) {
+  float along = atan(heading.y, heading.x) * far_m;
+  float tops = layered_noise(vec2(along / 170.0, seed)) * 0.65 + layered_noise(vec2(along / 13.0, seed + 9.0)) * 0.35;
+  float edge = (over_height.z - eye.y + mix(least_m, most_m, tops)) / far_m;
+  return 1.0 - smoothstep(-0.7, 0.7, (climb - edge) / max(fwidth(climb), 1e-5));
+}
+
 void main() {
   vec3 across = ray_right.xyz * v_screen.x + ray_up.xyz * v_screen.y;
-  vec3 origin = view_point.w > 0.5 ? across : vec3(0.0);
-  vec3 d = normalize(view_point.w > 0.5 ? ray_forward.xyz : ray_forward.xyz + across);
-  vec3 light;
-  // The mirrored pass looks up only; its land would be the river bed.
-  if (d.y < 0.0 && over_height.w > 0.5 && forward.w < 0.5) {
+  bool parallel = view_point.w > 0.5;
+  vec3 origin = parallel ? view_point.xyz + across : vec3(0.0);
+  vec3 d = normalize(parallel ? ray_forward.xyz : ray_forward.xyz + across);
+  bool mirrored = forward.w > 0.5, land = over_height.w > 0.5;
+  // The picture's sky is printed lighter than it is, as with a graduated filter on the land.
+  vec3 light = d.y >= 0.0 ? sky(d) * 1.25 : haze_colour(d);
+
+  // Plain land to the horizon; the mirrored pass looks up only.
+  float t = 1e9;
+  if (land && !mirrored && d.y < 0.0) {
     float above = origin.y + eye.y - over_height.z;
-    float t = above > 0.0 ? above / -d.y : 0.0;
+    t = above > 0.0 ? above / -d.y : 0.0;
     vec3 p = origin + d * t, world = p + eye.xyz;
-    float wide = layered_noise(world.xz / 60.0) - 0.5;
-    float fade = exp(-t / 400.0);
-    vec3 albedo = land_albedo.rgb * (1.0 + 0.3 * wide * fade);
+    float fields = layered_noise(world.xz / 310.0 + 5.0) - 0.5;
+    vec3 albedo = base_factor.rgb * (maps.x > 0.5 ? ground_texture(colour_map, world.xz * base_factor.a) : vec3(1.0));
+    albedo *= mix(vec3(1.0), ground_patches(world.xz), exp(-t / 300.0)) * (1.0 + 0.5 * fields * exp(-t / 3000.0));
     float lit = sunlit(p, vec3(0.0, 1.0, 0.0), 0.2);
     float open = mix(0.36, 1.0, open_sky(world));
     light = albedo / pi * (sun_light.rgb * (lit * max(to_sun.y, 0.0)) + sky_light.rgb * open);
     light = through_air(light, d, t);
-  } else {
-    light = sky(d);
+  }
+
+  // Woods beyond the site, two belts deep.
+  float level = length(d.xz), near_m = land_albedo.w;
+  if (land && !parallel && level > 0.2) {
+    vec2 heading = d.xz / level;
+    float climb = d.y / level;
+    vec3 crowns = vec3(0.060, 0.078, 0.036) / pi * (sun_light.rgb * (0.45 + 0.25 * dot(-heading, to_sun.xz)) + sky_light.rgb);
+    for (int belt = 1; belt >= 0; --belt) {
+      float far_m = belt == 1 ? near_m * 2.6 : near_m;
+      float fill = t > far_m ? woods(heading, climb, far_m, belt == 1 ? 14.0 : 3.0, belt == 1 ? 70.0 : 24.0, 3.0 + 20.0 * float(belt)) : 0.0;
+      light = mix(light, through_air(crowns, d, far_m * 1.3), fill);
+    }
   }
   out_colour = vec4(encoded(light), 1.0);
 }
@@ -514,7 +546,7 @@ Result<Program> Program::make(const std::string& name, const std::string& vertex
 }
 
 Result<Programs> Programs::make() {
-  const std::string frame = kFrame, shared = frame + kNoise + kLight;
+  const std::string frame = kFrame, shared = frame + kNoise + kGround + kLight;
   const std::string vertex = frame + kMeshVertex, fragment = shared + kMeshFragment;
   const std::string shadow = std::string("#version 330 core\n") + kShadowVertex;
   Programs programs;

@@ -25,19 +25,20 @@ struct FrameBlock {
   Vec4 view_point;     ///< relative; where it is looked from (0, or the eye's mirror image); w: 1 if orthographic
   Vec4 forward;        ///< of the view; w: 1 in the mirrored pass
   Vec4 ray_right, ray_up, ray_forward;  ///< a pixel looks along forward + x right + y up, x and y in -1..1
-  Vec4 to_sun;                          ///< w: exposure
-  Vec4 sun_light;                       ///< irradiance
-  Vec4 sky_light;                       ///< irradiance on level ground
-  Vec4 ambient[9];                      ///< spherical harmonics of irradiance
-  Vec4 air;                             ///< 1 / haze distance, clouds, ripples, encode (0 linear light, 1 for the screen)
-  Vec4 tone;                            ///< contrast, shoulder, b, c of the tone curve
-  Vec4 over_area;                       ///< low x, low z, 1 / size x, 1 / size z of the overhead maps
-  Vec4 over_height;                     ///< base, 1 / scale, height of the land around, 1 if that land is drawn
-  Vec4 land_albedo;
-  Vec4 water;    ///< level, 1 if there is any, 1 if `mirror` holds the mirrored scene, 0
-  Vec4 target;   ///< width and height of the target in pixels, pixels per metre at depth 1, 0
-  Vec4 shading;  ///< x: 0 natural, 1 flat, 2 silhouette; y: samples
-  Vec4 clip;     ///< plane, relative: keeps dot(plane, (p, 1)) >= 0
+  Vec4 to_sun;
+  Vec4 gain;         ///< exposure and white balance, in all light but the sky's table
+  Vec4 sun_light;    ///< irradiance
+  Vec4 sky_light;    ///< irradiance on level ground
+  Vec4 ambient[9];   ///< spherical harmonics of irradiance
+  Vec4 air;          ///< 1 / haze distance, clouds, ripples, encode (0 linear light, 1 for the screen)
+  Vec4 tone;         ///< contrast, shoulder, b, c of the tone curve
+  Vec4 over_area;    ///< low x, low z, 1 / size x, 1 / size z of the overhead maps
+  Vec4 over_height;  ///< base, 1 / scale, height of the land around, 1 if that land is drawn
+  Vec4 land_albedo;  ///< w: metres to the woods around
+  Vec4 water;        ///< level, 1 if there is any, 1 if `mirror` holds the mirrored scene, 0
+  Vec4 target;       ///< width and height of the target in pixels, pixels per metre at depth 1, 0
+  Vec4 shading;      ///< x: 0 natural, 1 flat, 2 silhouette; y: samples
+  Vec4 clip;         ///< plane, relative: keeps dot(plane, (p, 1)) >= 0
 };
 
 /// A linked program that owns itself.
@@ -64,9 +65,7 @@ class Program {
 };
 
 /// Texture units by the names the shaders use.
-enum TextureUnit : GLint {
-  kUnitColour, kUnitNormal, kUnitShadow, kUnitSky, kUnitCover, kUnitGround, kUnitMirror
-};
+enum TextureUnit : GLint { kUnitColour, kUnitNormal, kUnitShadow, kUnitSky, kUnitCover, kUnitGround, kUnitMirror };
 
 /// The renderer's programs.
 struct Programs {

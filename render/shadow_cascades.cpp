@@ -53,7 +53,8 @@ std::vector<Cascade> fit_cascades(const ViewVolume& view, const Box3& scene, con
                              view.up * (sy * spread * view.half_height)));
     }
     // Only what is there can be shaded; everything toward the sun can cast.
-    Vec2 low = glm::max(Vec2(slice.low), Vec2(scene_light.low)), high = glm::min(Vec2(slice.high), Vec2(scene_light.high));
+    Vec2 low = glm::max(Vec2(slice.low), Vec2(scene_light.low)),
+         high = glm::min(Vec2(slice.high), Vec2(scene_light.high));
     high = glm::max(high, low + Vec2(0.01f));
     const float extent = std::max(high.x - low.x, high.y - low.y);
     const float border = extent * kBorderTexels / static_cast<float>(size - 2 * static_cast<int>(kBorderTexels));

@@ -71,11 +71,11 @@ scene::Sun sun_position(const DateTime& when, const Place& where) {
   const double hour_angle = (sidereal_h * 15.0 + where.longitude_deg) * kRad - right_ascension;
 
   const double latitude = where.latitude_deg * kRad;
-  const double up = std::sin(latitude) * std::sin(declination) +
-                    std::cos(latitude) * std::cos(declination) * std::cos(hour_angle);
+  const double up =
+      std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hour_angle);
   const double east = -std::cos(declination) * std::sin(hour_angle);
-  const double north = std::cos(latitude) * std::sin(declination) -
-                       std::sin(latitude) * std::cos(declination) * std::cos(hour_angle);
+  const double north =
+      std::cos(latitude) * std::sin(declination) - std::sin(latitude) * std::cos(declination) * std::cos(hour_angle);
   const double elevation = std::atan2(up, std::hypot(east, north)) / kRad;
   double azimuth = std::atan2(east, north) / kRad;
   if (azimuth < 0) azimuth += 360.0;
