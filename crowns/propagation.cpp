@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "core/scalar.h"
 #include "crowns/bucket_queue.h"
@@ -89,66 +90,71 @@ class Layer {
   }
 
   void spread(std::uint32_t from, const Cell& settled) {
-    const std::int32_t f = settled.state;
     const IVec2 c = column_of(from);
-    offer(settled, west_of(from), {c.x - 1, c.y}, {-1, 0}, f);
-    offer(settled, east_of(from), {c.x + 1, c.y}, {1, 0}, f);
-    offer(settled, south_of(from), {c.x, c.y - 1}, {0, -1}, f);
-    offer(settled, north_of(from), {c.x, c.y + 1}, {0, 1}, f);
+    const std::uint32_t west = west_of(from), east = east_of(from), south = south_of(from), north = north_of(from);
+    const Cell &w = cells_[west], &e = cells_[east], &s = cells_[south], &n = cells_[north];
+    if (w.state < 0) offer(settled, west, {c.x - 1, c.y}, {-1, 0}, s, n);
+    if (e.state < 0) offer(settled, east, {c.x + 1, c.y}, {1, 0}, s, n);
+    if (s.state < 0) offer(settled, south, {c.x, c.y - 1}, {0, -1}, w, e);
+    if (n.state < 0) offer(settled, north, {c.x, c.y + 1}, {0, 1}, w, e);
   }
 
-  // Offers cell `to`, one step from a settled cell, to that cell's front f.
-  void offer(const Cell& settled, std::uint32_t to, IVec2 column, IVec2 step, std::int32_t f) {
-    Cell& cell = cells_[to];
-    if (cell.state >= 0) return;
+  // Offers cell `to`, one step from a settled cell, to that cell's front. `low` and `high` lie beside the settled cell,
+  // across the step, so diagonal to `to`.
+  void offer(const Cell& settled, std::uint32_t to, IVec2 column, IVec2 step, const Cell& low, const Cell& high) {
+    const std::int32_t f = settled.state;
     const Front& front = fronts_[static_cast<std::size_t>(f)];
     const double x = column.x + 0.5 - front.east, y = column.y + 0.5 - front.north;
     const double distance_squared = x * x + y * y;
     if (distance_squared > front.reach_squared) return;
     const double distance = std::sqrt(distance_squared);
 
-    const double s = front.slowness, from_tick = static_cast<double>(settled.tick);
-    double t, straight = 0;
-    if (distance <= front.trunk) {
-      t = from_tick + 1;
-    } else {
-      straight = (distance - front.trunk) * s;
-      t = from_tick + s;
-      // With a settled neighbour across the step as well, both directions count.
-      const std::uint32_t left = step.x != 0 ? south_of(to) : west_of(to);
-      const std::uint32_t right = step.x != 0 ? north_of(to) : east_of(to);
-      const bool has_left = cells_[left].state == f, has_right = cells_[right].state == f;
-      if (has_left || has_right) {
-        const double slope = s / distance;
-        const double along = (step.x != 0 ? step.x * x : step.y * y) * slope - static_cast<double>(settled.delay);
-        const double across = (step.x != 0 ? y : x) * slope;
-        if (has_left) t = both(t, from_tick, straight, s, along, across - static_cast<double>(cells_[left].delay));
-        if (has_right) t = both(t, from_tick, straight, s, along, -across - static_cast<double>(cells_[right].delay));
-      }
+    const double slowness = front.slowness, delay = static_cast<double>(settled.delay);
+    double t = static_cast<double>(settled.tick), straight = 0;
+    if (distance > front.trunk) {
+      straight = (distance - front.trunk) * slowness;
+      const double ahead = step.x != 0 ? step.x * x : step.y * y, aside = step.x != 0 ? y : x;
+      // In the base's own row or column no cell lies between it and the axis to take a difference with: the ray goes
+      // on.
+      t = ahead > 0.5 && std::fabs(aside) < 1.0 ? straight + delay : t + slowness;
+      const Sector sector{slowness, straight + delay - ahead * (slowness / distance)};
+      const double slope_aside = aside * (slowness / distance);
+      if (low.state == f && low.tick < settled.tick)
+        t = std::min(t, sector.time(slope_aside + delay - static_cast<double>(low.delay), low.tick));
+      if (high.state == f && high.tick < settled.tick)
+        t = std::min(t, sector.time(-slope_aside + delay - static_cast<double>(high.delay), high.tick));
     }
 
+    Cell& cell = cells_[to];
     const std::uint64_t tick = std::max(settled.tick + 1, static_cast<std::uint64_t>(t + 0.5));
+    const float new_delay = static_cast<float>(static_cast<double>(tick) - straight);
     if (cell.state != kOpen) {
       if (tick > cell.tick) return;
       if (tick == cell.tick) {
         if (front.rank >= fronts_[static_cast<std::size_t>(-2 - cell.state)].rank) return;
         cell.state = -2 - f;
-        cell.delay = static_cast<float>(static_cast<double>(tick) - straight);
+        cell.delay = new_delay;
         return;  // the entry in the queue stands
       }
     }
-    cell = {tick, static_cast<float>(static_cast<double>(tick) - straight), -2 - f};
+    cell = {tick, new_delay, -2 - f};
     queue_.push(tick, to);
   }
 
-  // (a + delay)^2 + (b + delay)^2 = s^2 for a, b = slope of the straight time minus the neighbour's delay; counts only
-  // when both differences are upwind, which is (a - b)^2 <= s^2, and later than the neighbours.
-  static double both(double t, double after, double straight, double s, double a, double b) {
-    const double difference = (a - b) * (a - b), square = s * s;
-    if (difference > square) return t;
-    const double candidate = straight + 0.5 * (std::sqrt(2.0 * square - difference) - a - b);
-    return candidate > after && candidate < t ? candidate : t;
-  }
+  // The eighth of the directions between the step from the settled cell and the diagonal from the cell beside it.
+  struct Sector {
+    double slowness;
+    double still;  // time if the front did not advance along the step
+
+    // `across` is the time's slope along the side, known from the two settled cells. What the slowness leaves is the
+    // slope along the step; when the way is more oblique than the diagonal, the diagonal is the best of the sector.
+    double time(double across, std::uint64_t diagonal_tick) const {
+      if (across < 0.0) return std::numeric_limits<double>::infinity();
+      if (2.0 * across * across > slowness * slowness)
+        return static_cast<double>(diagonal_tick) + std::numbers::sqrt2 * slowness;
+      return still + std::sqrt(slowness * slowness - across * across);
+    }
+  };
 
   IVec2 column_of(std::uint32_t cell) const {
     const IVec2 low = blocks_[cell / kBlock].low;

@@ -4,18 +4,21 @@
 //           points; here the same first arrival is the solution of |grad t| = slowness on each tree's own voxels
 // Model     t of a voxel centre = t0 + delay, t0 = slowness * max(0, |p - base| - trunk radius) the time of the
 // straight
-//           way from the trunk. Upwind differences of the delay in two directions, with neighbours n and q,
-//             (t0_x + delay - delay_n)^2 + (t0_y + delay - delay_q)^2 = slowness^2
-//           (additive factored eikonal equation, Luo and Qian 2012; Treister and Haber 2016), with t0's gradient exact:
-//           so the delay is 0, and t exact, wherever the straight way is free, and first order behind corners.
-//           With one neighbour only, t = t_n + slowness. Within the trunk's radius, t = t_n + 1.
+//           way from the trunk. With a settled neighbour n and a settled cell d beside n (diagonal to the voxel), both
+//           of the same tree, the delay solves
+//             (t0_a + delay - delay_n)^2 + (t0_b + delay_n - delay_d)^2 = slowness^2
+//           a along the step from n, b from d to n, t0's slopes exact (additive factored eikonal equation, Luo and Qian
+//           2012, Treister and Haber 2016, on the eight triangles around a voxel). So the delay is 0 and t exact where
+//           the straight way is free, and first order behind corners. A way more oblique than the diagonal takes
+//           t_d + sqrt(2) slowness; n alone t_n + slowness, or n's delay if in one row or column with the base; within
+//           the trunk's radius t_n + 1. The least counts.
 // Decision  the division is defined as a solution, not as a run. t is a whole number of ticks, rounded once, computed
 //           from the ticks of neighbours of the same tree, and at least 1 more than each that it uses; a voxel takes
 //           the lexicographically smallest (t, key). As each value rests on strictly smaller ones there is one
 //           solution, which no order of work can change. Ticks have a fixed length, so a tree far away cannot change
 //           them either.
 // Units     columns (voxel edges) and ticks: a front of 1 m2 of crown takes 2^40 ticks for a metre
-// Cost      each cell is settled once and tried once or twice from each settled neighbour of the same tree
+// Cost      each cell is settled once and offered once by each neighbour that was settled before it
 #pragma once
 
 #include <cstdint>
