@@ -329,7 +329,7 @@ Result<Inventory> parse_inventory(std::string_view text, const std::string& name
   if (!valid_utf8(text)) {
     converted = from_latin1(text);
     text = converted;
-    out.notes.push_back(fmt::format("{}: not UTF-8, read as Latin-1", name));
+    out.notes.push_back("not UTF-8, read as Latin-1");
   }
 
   const char separator = guess_separator(text);
@@ -345,7 +345,7 @@ Result<Inventory> parse_inventory(std::string_view text, const std::string& name
   if (trunk.index >= 0 && !trunk.has_unit) {
     const bool metres = fits_metres(text, separator, trunk);
     trunk.metres = metres ? 1 : 0.01;
-    out.notes.push_back(fmt::format("{}: column {} names no unit; taken as {}", name,
+    out.notes.push_back(fmt::format("column {} names no unit; taken as {}",
                                     header.names[static_cast<std::size_t>(trunk.index)], metres ? "m" : "cm"));
   }
   const auto found = [&](const Column& column) {

@@ -53,7 +53,7 @@ struct RowProblem {
 struct Inventory {
   std::vector<InventoryTree> trees;
   std::vector<RowProblem> problems;  ///< by line
-  std::vector<std::string> notes;    ///< what was assumed (units, encoding)
+  std::vector<std::string> notes;    ///< what was assumed (units, encoding); not the file's name
   InventoryColumns columns;          ///< the names found; empty where there is none
 };
 

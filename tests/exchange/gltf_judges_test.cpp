@@ -1,0 +1,148 @@
+// What judges nobody here wrote say of our files: the Khronos validator, and three.js in a browser.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "exchange/gltf_writer.h"
+#include "exchange/image_file.h"
+#include "sample_model.h"
+#include "scratch_folder.h"
+
+namespace bosquet::exchange {
+namespace {
+
+const std::filesystem::path kWeb = std::filesystem::path(BOSQUET_SOURCE_DIR) / "tests/web";
+
+struct Said {
+  int status = -1;
+  std::string text;
+};
+
+// Runs node on one of the scripts; what it prints, errors included, and its exit status.
+Said ask(const std::string& script, const std::string& arguments) {
+  const std::string command = "node '" + (kWeb / script).string() + "' " + arguments + " 2>&1";
+  Said said;
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::array<char, 4096> part;
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
+  const int status = ::pclose(pipe);
+  said.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return said;
+}
+
+std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
+
+class Judges : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(std::filesystem::exists(kWeb / "node_modules/gltf-validator"))
+        << "the judges are not installed; run: npm ci --prefix tests/web";
+  }
+  const ScratchFolder folder_;
+};
+
+TEST_F(Judges, TheValidatorFindsNothingToComplainOf) {
+  scene::Model many = sample_model();
+  for (int i = 0; i < 5; ++i)
+    many.nodes.push_back({"", Vec3(0.0f), {{std::make_shared<TriangleMesh>(tube(200, 100 + 90 * i, 1, 2, 1)), 0}}, {}});
+  std::string files;
+  const auto add = [&](const scene::Model& model, const std::string& name, const GltfOptions& options) {
+    const auto written = write_gltf(model, folder_ / name, options);
+    ASSERT_TRUE(written) << written.error().message;
+    files += " " + quoted(folder_ / name);
+  };
+  GltfOptions plain, other;
+  other.leaf_normal_maps = true, other.reorder = false, other.version = "1";
+  add(sample_model(), "plain.glb", plain);
+  add(sample_model(), "plain.gltf", plain);
+  add(sample_model(), "other words é.gltf", other);
+  add(many, "many.glb", other);
+  add(scene::Model{}, "empty.glb", plain);
+  const Said said = ask("validate.mjs", "--infos" + files);
+  EXPECT_EQ(said.status, 0) << said.text;
+}
+
+TEST_F(Judges, TheValidatorIsAwake) {
+  ASSERT_TRUE(write_gltf(sample_model(), folder_ / "a.glb"));
+  std::string bytes = slurp(folder_ / "a.glb");
+  const auto at = bytes.find("\"MASK\"");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 6, "\"MUSK\"");
+  spit(folder_ / "a.glb", bytes);
+  const Said said = ask("validate.mjs", quoted(folder_ / "a.glb"));
+  EXPECT_EQ(said.status, 1) << said.text;
+}
+
+TEST_F(Judges, ThreeJsSeesEveryTriangleInItsPlace) {
+  const scene::Model model = sample_model();
+  ASSERT_TRUE(write_gltf(model, folder_ / "a.glb"));
+  const Said said = ask("view.mjs", quoted(folder_ / "a.glb") + " " + quoted(folder_ / "a.png") + " --size 320x240");
+  ASSERT_EQ(said.status, 0) << said.text;
+  const auto report = nlohmann::json::parse(said.text, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << said.text;
+  EXPECT_EQ(report["triangles"], count(model).triangles);
+  EXPECT_EQ(report["lights"], 1);
+  EXPECT_EQ(report["cameras"], 2);
+  // The L of trees: the second stands east of the first, the third north of it (z falls to the north).
+  const auto place = [&](int tree) {
+    return report["nodes"][static_cast<std::size_t>(tree)]["position"].get<std::array<double, 3>>();
+  };
+  EXPECT_NEAR(place(2)[0] - place(1)[0], 8, 1e-5);
+  EXPECT_NEAR(place(3)[2] - place(1)[2], -4, 1e-5);
+  Box3 box;
+  for (const scene::Node& node : model.nodes)
+    for (const scene::Part& part : node.parts)
+      for (const Vec3& p : part.mesh->positions) box.add(p + node.translation);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(report["box"]["min"][c].get<double>(), box.low[static_cast<int>(c)], 1e-5);
+    EXPECT_NEAR(report["box"]["max"][c].get<double>(), box.high[static_cast<int>(c)], 1e-5);
+  }
+}
+
+// A square card with a round leaf on it fills pi/4 of the square: alpha was tested, at the right cutoff.
+TEST_F(Judges, ThreeJsCutsLeavesOut) {
+  scene::Model model;
+  auto& leaf = model.materials.emplace_back();
+  leaf.mask = leaf.double_sided = true;
+  leaf.base_colour = filled_image(256, 4, [](int x, int y, std::uint8_t* p) {
+    p[0] = p[1] = p[2] = 0;  // black leaves: the silhouette is white all the same
+    const double dx = x - 127.5, dy = y - 127.5;
+    p[3] = dx * dx + dy * dy < 128 * 128 ? 255 : 0;
+  });
+  TriangleMesh card;
+  for (Vec2 c : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+    card.positions.push_back({c.x, c.y, 0});
+    card.normals.push_back({0, 0, 1});
+    card.uvs.push_back(0.5f * Vec2(c.x + 1, 1 - c.y));
+  }
+  card.indices = {0, 1, 2, 0, 2, 3};
+  model.nodes.push_back({"card", Vec3(0.0f), {{std::make_shared<TriangleMesh>(card), 0}}, {}});
+  ASSERT_TRUE(write_gltf(model, folder_ / "a.glb"));
+  // From 10 m a field of view of 2 atan(1/5) shows 4 m: the card is half as wide as the picture.
+  const Said said = ask("view.mjs", quoted(folder_ / "a.glb") + " " + quoted(folder_ / "a.png") +
+                                        " --silhouette --size 200x200 --fov 22.6199 --camera 0,0,10,0,0,0");
+  ASSERT_EQ(said.status, 0) << said.text;
+  const auto picture = read_image(folder_ / "a.png");
+  ASSERT_TRUE(picture) << picture.error().message;
+  int white = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      const int v = picture->at(x, y)[0];
+      EXPECT_TRUE(v == 0 || v == 255);
+      white += v == 255;
+    }
+  EXPECT_NEAR(white, kPi / 4 * 100 * 100, 0.02 * 100 * 100);  // a pixel's rim of the circle is 3 %
+}
+
+TEST_F(Judges, AFileThatCannotBeShownIsSaidSo) {
+  spit(folder_ / "bad.glb", "glTF and nothing else");
+  const Said said = ask("view.mjs", quoted(folder_ / "bad.glb") + " " + quoted(folder_ / "a.png"));
+  EXPECT_EQ(said.status, 1) << said.text;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
+}
+
+}  // namespace
+}  // namespace bosquet::exchange
