@@ -237,7 +237,7 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
         s.radius = s.wood;
         if (stem) {
           const float x = 1.0f - std::clamp(s.along / flare_top, 0.0f, 1.0f);
-          s.radius = s.wood * (1.0f + shape.root_flare * x * x * x);
+          s.radius = s.wood + std::min(shape.root_flare * curve.base_radius, 0.3f * flare_top) * x * x * x;
         } else if (in_collar) {
           const float outside = fork.outside(s.centre);
           const float x = 1.0f - std::clamp(outside / collar, 0.0f, 1.0f);

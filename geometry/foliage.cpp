@@ -16,10 +16,13 @@ Vec3 unit(const Vec3& v, const Vec3& otherwise) {
   return l2 > 1e-10f ? v / std::sqrt(l2) : otherwise;
 }
 
-/// Random numbers of a card, and (place kOfInternode) of an internode.
+/// Random numbers of a twig (leaf kWholeTwig), a leaf of it, or an internode (place kOfInternode).
 constexpr std::uint32_t kOfInternode = 0xffff;
-RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32_t place) {
-  return {in.seed, mix_bits(in.key) + (static_cast<std::uint64_t>(internode) << 16) + place, Purpose::foliage};
+RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32_t place,
+                    int leaf = LeafSite::kWholeTwig) {
+  const std::uint64_t which = static_cast<std::uint64_t>(internode) << 32 | static_cast<std::uint64_t>(place) << 16 |
+                              static_cast<std::uint64_t>(leaf + 2);
+  return {in.seed, mix_bits(in.key) + which, Purpose::foliage};
 }
 
 /// For each standing internode, whether it is young and thin enough to bear leaves.
@@ -62,15 +65,25 @@ class Crown {
   Vec3 centre_, curvature_;
 };
 
-LeafFrame frame_at(const FoliageInput& in, const LeafSite& site, const Vec3& twig, const Vec3& radial) {
-  if (site.tip) {
-    const Vec3 up = unit(kUp - twig.y * twig, radial);
-    return {twig, glm::cross(up, twig), up};
-  }
-  const SinCos out = sin_cos(radians(in.foliage->insertion_deg));
-  const Vec3 heading = out.cos * twig + out.sin * radial;
+/// Frame of a stalk at its foot: at `angle` from the twig, its upper side toward the twig's tip.
+LeafFrame stalk(const Vec3& twig, const Vec3& radial, const SinCos& angle) {
+  const Vec3 heading = angle.cos * twig + angle.sin * radial;
   const Vec3 up = unit(twig - glm::dot(twig, heading) * heading, radial);
   return {heading, glm::cross(up, heading), up};
+}
+
+/// The unit vector across `twig` at this azimuth; azimuth 0 is level, so that two-ranked leaves make flat sprays.
+Vec3 radial_at(const Vec3& twig, float azimuth) {
+  const Vec3 level = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
+  const Vec3 side = unit(level - glm::dot(level, twig) * twig, Vec3{0, 0, 1});
+  const SinCos a = sin_cos(azimuth);
+  return a.cos * side + a.sin * glm::cross(side, twig);
+}
+
+/// Normal of a blade that hangs below level and away in the direction of its stalk.
+Vec3 hanging(const Vec3& heading, const SinCos& droop, const Vec3& out) {
+  const Vec3 away = unit(Vec3{heading.x, 0, heading.z}, unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0}));
+  return droop.cos * kUp + droop.sin * away;
 }
 
 std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
@@ -90,7 +103,12 @@ class Cards {
   void add(const Vec3& foot, const Vec3& heading, float length, float half_width, const Vec3& left, const Vec3& right,
            const Vec3& up, const AtlasCell& uv, Rgba8 colour, bool folded) {
     const Vec3 to_top = length * heading;
-    const bool front = glm::dot(up, crown_.outward(foot + 0.5f * to_top)) >= 0.0f;
+    const float facing = glm::dot(up, crown_.outward(foot + 0.5f * to_top));
+    const bool front = facing >= 0.0f;
+    // A card seen edge-on from outside shows both its sides there: its normals stay its own, or one side would be
+    // black.
+    const float x = std::min(1.0f, std::abs(facing) / 0.7f);
+    const float soft = soft_ * x * x * (3.0f - 2.0f * x);
     const Vec3 l = half_width * left, r = half_width * right;
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     const Vec3 across = unit(right - left, left);
@@ -98,7 +116,7 @@ class Cards {
       // Halves of a folded card look a little to their own side.
       const Vec3 face = (front ? 1.0f : -1.0f) * up + (folded ? 0.35f * side * across : Vec3(0.0f));
       mesh.positions.push_back(p);
-      mesh.normals.push_back(unit(glm::mix(unit(face, up), crown_.outward(p), soft_), kUp));
+      mesh.normals.push_back(unit(glm::mix(unit(face, up), crown_.outward(p), soft), kUp));
       mesh.uvs.push_back({u, v});
       mesh.colours.push_back(colour);
     };
@@ -132,6 +150,19 @@ AtlasCell inset(AtlasCell cell, float share_of_width) {
   return {middle - half, cell.v0 + margin, middle + half, cell.v1 - margin};
 }
 
+/// A strip of the wood at a twig's foot.
+AtlasCell wood_cell() {
+  const AtlasCell cell = cluster_cell(0);
+  const float middle = 0.5f * (cell.u0 + cell.u1), foot = cell.v1 - 0.5f * kAtlasMargin;
+  return {middle - 0.0005f, foot - 0.01f, middle + 0.0005f, foot - 0.002f};
+}
+
+/// How far up its twig a leaf stands, 0..1.
+float place_on_twig(const LeafLook& leaf, int number, float jitter) {
+  const float x = (static_cast<float>(number) + jitter) / static_cast<float>(leaf.cluster_leaves);
+  return leaf.cluster == ClusterForm::tuft ? 0.55f + 0.45f * x : 0.12f + 0.88f * x;
+}
+
 }  // namespace
 
 std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
@@ -140,7 +171,7 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
   const bool leafed = has_leaves(in.look->leaf, in.season);
   std::vector<LeafSite> sites;
   if (level == FoliageLevel::leaves && !leafed) return sites;
-  const float spacing = level == FoliageLevel::leaves ? look.leaf_spacing_m : look.cluster_spacing_m;
+  const bool single = level == FoliageLevel::leaves;
   const float fallen = in.season == Season::autumn && !in.look->leaf.evergreen ? look.autumn_fall : 0.0f;
   const float divergence = radians(look.divergence_deg);
   const std::vector<std::uint8_t> bears = bearing(in);
@@ -155,7 +186,8 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
       const Vec3 d = s.distal[i] - s.proximal(i);
       const float length = std::sqrt(glm::dot(d, d));
       RandomStream of_internode = stream(in, i, kOfInternode);
-      const auto n = std::min(static_cast<std::uint32_t>(length / spacing + of_internode.uniform()), 1000u);
+      const auto n =
+          std::min(static_cast<std::uint32_t>(length / look.cluster_spacing_m + of_internode.uniform()), 1000u);
       // The foot of a side branch lies inside the wood that bears it.
       const float inside = k == 0 && path.parent >= 0 ? in.radius[in.paths->internodes[path.node]] : 0.0f;
       for (std::uint32_t place = 0; place <= n; ++place) {
@@ -164,13 +196,27 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
         RandomStream random = stream(in, i, place);
         LeafSite site;
         site.internode = i;
-        site.place = place;
+        site.place = static_cast<std::uint16_t>(place);
         site.tip = tip;
         site.at = tip ? 1.0f : (static_cast<float>(place) + random.uniform(0.25f, 0.75f)) / static_cast<float>(n);
         site.azimuth = divergence * static_cast<float>(around++) + random.uniform(-0.25f, 0.25f);
         site.size = 1.0f + look.size_variation * random.uniform(-1.0f, 1.0f);
-        if (random.uniform() < fallen || site.at * length < inside) continue;
+        const bool gone = random.uniform() < fallen;
+        if ((gone && !single) || site.at * length < inside) continue;
+        if (!single) {
+          sites.push_back(site);
+          continue;
+        }
+        // The twig's wood and its leaves one by one.
+        const float twig_size = site.size;
+        site.leaf = LeafSite::kTwigWood;
         sites.push_back(site);
+        for (int number = 0; number < in.look->leaf.cluster_leaves; ++number) {
+          RandomStream of_leaf = stream(in, i, place, number);
+          site.leaf = static_cast<std::int16_t>(number);
+          site.size = twig_size * (1.0f + look.size_variation * of_leaf.uniform(-1.0f, 1.0f));
+          if (of_leaf.uniform() >= fallen) sites.push_back(site);
+        }
       }
     }
   }
@@ -220,27 +266,31 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   // What is left out adds its area to the others.
   double all = 0.0, of_kept = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
+    if (sites[k].leaf == LeafSite::kTwigWood) continue;
     const double area = static_cast<double>(sites[k].size) * static_cast<double>(sites[k].size);
     all += area;
     if (kept(k)) of_kept += area;
   }
-  const float growth = static_cast<float>(std::sqrt(all / of_kept));
+  const float growth = of_kept > 0.0 ? static_cast<float>(std::sqrt(all / of_kept)) : 1.0f;
+  const float crowding = 1.0f - 1.0f / growth;
 
   // Sizes and angles of this level.
   const bool single = level == FoliageLevel::leaves;
   const bool spring = in.season == Season::spring && !leaf.evergreen;
-  const float season_size = !spring ? 1.0f : single ? look.spring_size : 0.5f + 0.5f * look.spring_size;
-  const float cell = (single ? leaf_cell_m(leaf) : cluster_cell_m(leaf)) * season_size * (1.0f - 2.0f * kAtlasMargin);
+  const float season_size = spring ? look.spring_size : 1.0f;
+  constexpr float kFilled = 1.0f - 2.0f * kAtlasMargin;
+  const float twig_m = cluster_cell_m(leaf) * (0.5f + 0.5f * season_size) * kFilled;
+  const float leaf_m = leaf_cell_m(leaf) * season_size * kFilled;
   const bool needles = leaf.outline == LeafOutline::needle_spray;
-  const float narrow = single && !needles ? std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f) : 1.0f;
-  const SinCos droop = sin_cos(radians(single ? leaf.droop_deg : look.cluster_droop_deg));
-  const float stiffness = single ? 1.0f : 0.6f;  // a twig turns less than a leaf's stalk
-  const bool folded = single || (level == FoliageLevel::clusters && look.cluster_planes == 1);
+  const float narrow = needles ? 1.0f : std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f);
+  const SinCos leaf_droop = sin_cos(radians(leaf.droop_deg)), twig_droop = sin_cos(radians(look.cluster_droop_deg));
+  const SinCos insertion = sin_cos(radians(look.insertion_deg));
+  const bool folded = level == FoliageLevel::clusters && look.cluster_planes == 1;
   const int planes = level == FoliageLevel::clusters ? look.cluster_planes : 1;
-  const SinCos fold = sin_cos(radians(folded ? (single ? 0.5f : 1.0f) * look.fold_deg : 0.0f));
+  const SinCos fold = sin_cos(radians(folded ? look.fold_deg : 0.0f));
 
   const Crown crown(s, sites);
-  RandomStream of_tree(in.seed, mix_bits(in.key) - 1, Purpose::foliage);
+  RandomStream of_tree = stream(in, 0xffffffff, kOfInternode);
   const float tree_warmth = look.tree_hue * of_tree.uniform(-0.5f, 0.5f);
   const float tree_value = 1.0f - 0.16f * look.tree_hue * of_tree.uniform();
   const float mottle = in.season == Season::autumn && !leaf.evergreen ? 0.35f : 0.12f;
@@ -251,43 +301,75 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   cards.mesh.positions.reserve(vertices), cards.mesh.normals.reserve(vertices), cards.mesh.uvs.reserve(vertices);
   cards.mesh.colours.reserve(vertices), cards.mesh.indices.reserve(3 * triangles);
 
+  constexpr std::uint64_t kAny = 1000;  // numbers of a twig's stream far from those drawn in turn
+  std::uint32_t last_internode = 0xffffffff, last_place = 0;
+  Vec3 twig_at{0.0f}, out = kUp;
+  LeafFrame twig_frame{};
   for (std::size_t k = 0; k < n; ++k) {
     if (!kept(k)) continue;
     const LeafSite& site = sites[k];
     const std::uint32_t i = site.internode;
-    const Vec3 from = s.proximal(i), to = s.distal[i];
-    RandomStream random = stream(in, i, site.place + 0x8000u);
 
-    // Where it stands: azimuth 0 is level, so that two-ranked leaves make flat sprays.
-    const Vec3 twig = unit(to - from, kUp);
-    const Vec3 level_side = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
-    const Vec3 side = unit(level_side - glm::dot(level_side, twig) * twig, Vec3{0, 0, 1});
-    const SinCos a = sin_cos(site.azimuth);
-    const Vec3 radial = a.cos * side + a.sin * glm::cross(side, twig);
-    const Vec3 at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
+    // Where the twig stands on its branch and how it turns; wood turns less than a leaf's stalk. Leaves of one twig
+    // come one after the other.
+    const float light = std::clamp(s.light[i], 0.0f, 1.0f);
+    RandomStream of_twig = stream(in, i, site.place);
+    if (i != last_internode || site.place != last_place) {
+      last_internode = i, last_place = site.place;
+      const Vec3 from = s.proximal(i), to = s.distal[i];
+      const Vec3 branch = unit(to - from, kUp), radial = radial_at(branch, site.azimuth);
+      twig_at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
+      out = crown.outward(twig_at);
+      const LeafFrame foot =
+          site.tip ? stalk(branch, radial_at(branch, 0.5f * kPi), {0.0f, 1.0f}) : stalk(branch, radial, insertion);
+      // A card that stands for many looks out of the crown, a piece of its shell.
+      const Vec3 level_twig = hanging(foot.heading, twig_droop, out);
+      const auto any = [&](std::uint64_t k) {
+        return static_cast<float>(of_twig.at(kAny + k) >> 40) * 0x1p-23f - 1.0f;
+      };
+      const float shell = single ? 0.0f : crowding;
+      const Vec3 toward = unit(glm::mix(level_twig, out, std::max(look.sun_turn * light, shell)) +
+                                   0.7f * shell * Vec3{any(0), any(1), any(2)},
+                               kUp);
+      const float ease = 0.6f * (0.9f + 0.3f * any(3)) * (1.0f + shell);
+      twig_frame = turn_petiole(foot, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+    }
 
-    // How it turns.
-    const Vec3 out = crown.outward(at);
-    LeafFrame frame = frame_at(in, site, twig, radial);
-    const Vec3 away = unit(Vec3{frame.heading.x, 0, frame.heading.z}, unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0}));
-    const Vec3 level_blade = droop.cos * kUp + droop.sin * away;
-    const Vec3 toward = unit(glm::mix(level_blade, out, look.sun_turn * s.light[i]), kUp);
-    const float ease = stiffness * random.uniform(0.6f, 1.2f);
-    frame = turn_petiole(frame, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+    // A single leaf stands on its twig as the twig on the branch.
+    RandomStream random = site.leaf == LeafSite::kWholeTwig ? of_twig : stream(in, i, site.place, site.leaf);
+    for (int skip = 0; skip < 4; ++skip) random.bits();  // what leaf_sites has used
+    LeafFrame frame = twig_frame;
+    Vec3 at = twig_at;
+    const bool wood = site.leaf == LeafSite::kTwigWood;
+    if (single && !wood) {
+      const Vec3 twig = frame.heading;
+      const float azimuth = radians(look.divergence_deg) * static_cast<float>(site.leaf) + site.azimuth;
+      at += place_on_twig(leaf, site.leaf, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
+      frame = stalk(twig, radial_at(twig, azimuth), insertion);
+      const Vec3 toward = unit(glm::mix(hanging(frame.heading, leaf_droop, out), out, look.sun_turn * light), kUp);
+      const float ease = random.uniform(0.6f, 1.2f);
+      frame = turn_petiole(frame, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+    }
 
     // How it looks.
     const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
     const float warmth = look.vigor_hue * weak * weak + tree_warmth + mottle * random.uniform(-1.0f, 1.0f);
-    const float value = occlusion(s.light[i]) * tree_value * random.uniform(0.86f, 1.0f);
-    const Vec3 tint = value * hue_turned(std::clamp(warmth, -1.0f, 1.0f));
+    const float value = occlusion(light) * tree_value * random.uniform(0.86f, 1.0f);
+    const Vec3 tint = value * (wood ? Vec3(1.0f) : hue_turned(std::clamp(warmth, -1.0f, 1.0f)));
     const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
     const int variant = random.uniform() < 0.5f ? 0 : 1;
-    AtlasCell uv = inset(single ? leaf_cell(variant) : cluster_cell(variant), narrow);
+    AtlasCell uv = wood ? wood_cell() : single ? inset(leaf_cell(variant), narrow) : inset(cluster_cell(variant), 1.0f);
     if (random.uniform() < 0.5f) std::swap(uv.u0, uv.u1);
 
+    if (wood) {
+      const float half = 0.5e-3f * leaf.twig_mm;
+      cards.add(at, frame.heading, 0.8f * twig_m, half, frame.left, -frame.left, frame.up, uv, colour, false);
+      continue;
+    }
     // A card that stands for many grows around its place, not out of the crown.
-    const float length = cell * site.size * growth;
-    const Vec3 foot = at - 0.5f * (1.0f - 1.0f / growth) * length * frame.heading;
+    const float length = (single ? leaf_m : twig_m) * site.size * growth;
+    const float half_width = 0.5f * length * (single ? narrow : 1.0f);
+    const Vec3 foot = at - 0.5f * crowding * length * frame.heading;
     for (int plane = 0; plane < planes; ++plane) {
       LeafFrame f = frame;
       if (planes > 1) {
@@ -296,7 +378,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
         f.up = turn.cos * frame.up - turn.sin * frame.left;
       }
       const Vec3 left = fold.cos * f.left - fold.sin * f.up, right = -fold.cos * f.left - fold.sin * f.up;
-      cards.add(foot, f.heading, length, 0.5f * length * narrow, left, right, f.up, uv, colour, folded);
+      cards.add(foot, f.heading, length, half_width, left, right, f.up, uv, colour, folded);
     }
   }
   assert(cards.mesh.triangles() == triangles);

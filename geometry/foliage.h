@@ -10,9 +10,9 @@
 //             about U (turn)    Omega_U =  e_U L.(T x (H x T))
 //           T is the normal of a blade that hangs `droop` below level away from its twig, drawn toward the open side of
 //           the crown where there is much light
-// Levels    leaves: one card for each leaf. clusters: one card (folded along its twig) or crossed cards for each twig
-// of
-//           5-15 leaves. cards: few, large twig cards for far trees. Cards show cells of the leaf atlas (leaf_atlas.h)
+// Levels    clusters: one card (folded along its twig) or crossed cards for each leafed twig of 5-15 leaves.
+//           leaves: each of these twigs with a card for every leaf of its own and one for its wood. cards: few, large
+//           twig cards for far trees. All show cells of the leaf atlas (leaf_atlas.h), and stand at the same places
 // Decision  a twig bears leaves while it is thin and at most leaf_life seasons behind the last growth of its own
 // branch,
 //           so old twigs that live on without growing stay green at their ends
@@ -51,8 +51,7 @@ inline constexpr std::array<std::string_view, 3> kFoliageLevelNames{"leaves", "c
 struct FoliageLook {
   float max_twig_mm = 30.0f;
   int leaf_life_seasons = 12;
-  float leaf_spacing_m = 0.025f;
-  float cluster_spacing_m = 0.14f;
+  float cluster_spacing_m = 0.08f;
   float divergence_deg = 137.5f;
   float insertion_deg = 50.0f;
   float cluster_droop_deg = 5.0f;
@@ -76,7 +75,6 @@ void describe_foliage(Parameters& p, Visitor& visit) {
   visit(Whole{"foliage_leaf_life_seasons", 1, 1000,
               "Wood bears leaves up to so many seasons behind the last growth of its branch"},
         p.leaf_life_seasons);
-  visit(Real{"foliage_leaf_spacing_m", "m", 0.002, 2, "Length of twig for each single leaf"}, p.leaf_spacing_m);
   visit(Real{"foliage_cluster_spacing_m", "m", 0.02, 5, "Length of branch for each twig cluster"}, p.cluster_spacing_m);
   visit(Real{"foliage_divergence_deg", "deg", 0, 360, "Turn around the twig from one leaf to the next"},
         p.divergence_deg);
@@ -104,14 +102,16 @@ template <class Parameters, class Visitor>
 requires std::same_as<std::remove_const_t<Parameters>, FoliageLook>
 void describe(Parameters& p, Visitor& visit) { describe_foliage(p, visit); }
 
-/// Where a leaf or twig cluster is attached.
+/// Where a leafed twig is attached, or which leaf of such a twig.
 struct LeafSite {
+  static constexpr std::int16_t kWholeTwig = -2, kTwigWood = -1;
   std::uint32_t internode = 0;
-  std::uint32_t place = 0;  ///< number along its internode, for random numbers
-  float at = 0;             ///< 0 lower to 1 upper end of the internode
-  float azimuth = 0;        ///< around the twig, radians
-  float size = 1;           ///< factor
-  bool tip = false;         ///< ends a branch and points where it points
+  std::uint16_t place = 0;         ///< number along its internode, for random numbers
+  std::int16_t leaf = kWholeTwig;  ///< number of a single leaf, from the foot of its twig up
+  float at = 0;                    ///< 0 lower to 1 upper end of the internode
+  float azimuth = 0;               ///< around the branch, radians
+  float size = 1;                  ///< factor, of the twig or leaf
+  bool tip = false;                ///< ends a branch and points where it points
 };
 
 struct FoliageInput {
@@ -129,7 +129,7 @@ struct FoliageInput {
 /// and cards go on showing their twigs.
 std::vector<LeafSite> leaf_sites(const FoliageInput& input, FoliageLevel level);
 
-/// Triangles of one site's cards at this level.
+/// Triangles of one site's cards at this level (of one leaf, where leaves are single).
 std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level);
 
 /// Cards for about `count` of the sites (all: at least sites.size()), spread evenly, with the area of all.

@@ -71,8 +71,6 @@ std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const
   for (std::size_t i = 0; i < skeleton.size(); ++i)
     if (stands[i] && (thinnest == 0.0f || radius[i] < thinnest)) thinnest = radius[i];
 
-  const bool leaves = options.foliage == FoliageLevel::leaves;
-  const float spacing = leaves ? foliage.leaf_spacing_m : foliage.cluster_spacing_m;
   double wood = 0.0, leafy_m = 0.0;
   for (std::size_t i = 0; i < skeleton.size(); ++i) {
     if (!stands[i]) continue;
@@ -80,8 +78,9 @@ std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const
     wood += std::min(56.0f, 6.0f * std::sqrt(radius[i] / std::max(thinnest, 1e-5f)));
     if (2000.0f * radius[i] <= foliage.max_twig_mm) leafy_m += std::sqrt(glm::dot(d, d));
   }
-  const bool bare = leaves && !has_leaves(look.leaf, options.season);
-  const auto sites = bare ? std::size_t{0} : static_cast<std::size_t>(leafy_m / static_cast<double>(spacing));
+  auto sites = static_cast<std::size_t>(leafy_m / static_cast<double>(foliage.cluster_spacing_m));
+  if (options.foliage == FoliageLevel::leaves)
+    sites *= has_leaves(look.leaf, options.season) ? static_cast<std::size_t>(look.leaf.cluster_leaves) + 1 : 0;
   return static_cast<std::size_t>(wood) +
          cards_wanted(options.foliage, sites) * triangles_per_site(foliage, options.foliage);
 }
