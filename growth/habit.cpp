@@ -74,7 +74,7 @@ Habits habits_at(const Parameters& p, float share, float detail) {
       if (order >= o.from) apply(o.change, n);
     }
     for (const Phase& phase : p.phases) {
-      if (share >= phase.from && order >= phase.from_order) apply(phase.change, n);
+      if (share >= phase.from && concerns(phase, order)) apply(phase.change, n);
     }
     habits[static_cast<std::size_t>(order)] = prepare(n, detail);
   }

@@ -65,7 +65,7 @@ Result<void> check(const Parameters& p, std::string_view what) {
       if (order >= o.from) apply(o.change);
     }
     for (std::size_t i = 0; i < phases; ++i) {
-      if (order >= p.phases[i].from_order) apply(p.phases[i].change);
+      if (concerns(p.phases[i], order)) apply(p.phases[i].change);
     }
     const std::string where =
         fmt::format("{}, order {}{}", what, order, phases ? fmt::format(", phase {}", phases) : "");

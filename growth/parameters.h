@@ -51,12 +51,17 @@ struct Overrides {
   std::optional<float> shedding_threshold;
 };
 
-/// From `from` of the final height on, other numbers hold.
+/// From `from` of the final height on, other numbers hold for axes of these orders.
 struct Phase {
   float from = 0.0f;
   int from_order = 0;
+  int to_order = 12;
   Overrides change;
 };
+
+inline bool concerns(const Phase& phase, int order) {
+  return order >= phase.from_order && (order <= phase.to_order || phase.to_order == 12);
+}
 
 /// For axes of order `from` and higher, other numbers hold.
 struct Order {
@@ -94,6 +99,7 @@ struct Parameters {
   BudsAt buds_at = BudsAt::every_node;
   int whorl = 3;
   float scattered = 0.0f;
+  float bole = 0.0f;
   float gravimorphism_vertical = 1.0f, gravimorphism_level = 1.0f, gravimorphism_offset = 0.0f;  ///< s_v, s_p, e_v
   // Stems.
   int stems = 1;
@@ -167,6 +173,8 @@ requires std::same_as<std::remove_const_t<P>, Phase>
 void describe(P& p, Visitor& visit) {
   visit(Real{"from", "", 0, 1, "Height, as a share of the final height, from which the phase holds"}, p.from);
   visit(Whole{"from_order", 0, 12, "Lowest order of axes that the phase changes"}, p.from_order);
+  visit(Whole{"to_order", 0, 12, "Highest order of axes that the phase changes; 12 is all higher ones too"},
+        p.to_order);
   describe_overrides(p.change, visit);
 }
 
@@ -220,6 +228,7 @@ void describe(P& p, Visitor& visit) {
   visit(Choice{"buds_at", kBudsAtNames, "Which nodes carry lateral buds"}, p.buds_at);
   visit(Whole{"whorl", 1, 12, "Buds in a whorl"}, p.whorl);
   visit(Real{"scattered", "", 0, 1, "Share of the nodes between whorls that carry a bud"}, p.scattered);
+  visit(Real{"bole", "", 0, 0.5, "Share of the final height below which the trunk sets no buds"}, p.bole);
   visit(Real{"gravimorphism_vertical", "", 0.05, 4, "Half-axis of the bud ellipse across the axis, upward"},
         p.gravimorphism_vertical);
   visit(Real{"gravimorphism_level", "", 0.05, 4, "Half-axis of the bud ellipse across the axis, level"},

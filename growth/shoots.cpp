@@ -70,6 +70,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
       count = 1;
     }
   }
+  if (tree.wood.order[c] == 0 && buds.at[tip].y < p.bole * tree.input->max_height_m) count = 0;
   tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
   tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
 
