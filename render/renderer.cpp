@@ -22,7 +22,7 @@ namespace bosquet::render {
 namespace {
 
 constexpr int kCascades = 3;
-constexpr int kShadowSize = 2048, kFineShadowSize = 4096;
+constexpr int kSmallestShadow = 512, kLargestShadow = 4096;  ///< texels a side; as many as the picture has pixels
 constexpr int kLargestPicture = 32768;
 constexpr int kTileLimit = 4096;
 
@@ -217,7 +217,8 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
   glDepthMask(GL_TRUE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   if (natural && block.cascade_far.w > 0) {
-    const int size = view.supersample > 1 || view.width > 2400 ? kFineShadowSize : kShadowSize;
+    int size = kSmallestShadow;
+    while (size < kLargestShadow && size < std::max(view.width, view.height)) size *= 2;
     if (!shadow.fit(std::min<int>(size, largest_target), kCascades))
       return cannot_finish("the graphics driver refuses shadow maps of " + std::to_string(size) + " x " +
                            std::to_string(size) + " texels");
