@@ -1,0 +1,128 @@
+// The commands as a user types them, on a small site.
+#include <csignal>
+
+#include "tests/cli/program.h"
+
+namespace bosquet {
+namespace {
+
+class Commands : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("grove.toml",
+          "[site]\nsize_m = [16, 12]\nseed = 5\n[[planting]]\nname = \"grove\"\nspecies = { silver_birch = 2, "
+          "norway_spruce = 1 }\ncount = 9\n"
+          "scale = [0.2, 0.4]\n[export]\nmax_triangles = 40000\n");
+  }
+};
+
+TEST_F(Commands, MakeWritesEveryOutputAndAReport) {
+  const Ran ran = bosquet("make grove.toml -o g.glb -o g.png -o g.csv -o g.vdb --report r.json");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const char* file : {"g.glb", "g.png", "g.csv", "g.vdb"})
+    EXPECT_GT(std::filesystem::file_size(folder_ / file), 100u) << file;
+  const nlohmann::json r = json("r.json");
+  EXPECT_EQ(r["trees"], 9);
+  EXPECT_GT(r["internodes"], 100);
+  EXPECT_GT(r["leaves"], 100);
+  EXPECT_GT(r["voxels"], 100);
+  EXPECT_GT(r["triangles"], 1000);
+  EXPECT_LE(r["triangles"], 40000);
+  EXPECT_EQ(r["bytes"]["g.glb"], std::filesystem::file_size(folder_ / "g.glb"));
+  EXPECT_EQ(r["seed"], 5);
+  EXPECT_EQ(r["skeleton_digest"].get<std::string>().size(), 16u);
+  for (const char* stage :
+       {"terrain", "distribution", "crowns", "light", "growth", "geometry", "textures", "export", "total"})
+    EXPECT_TRUE(r["seconds"].contains(stage)) << stage;
+}
+
+TEST_F(Commands, TheSameRecipeGivesTheSameBytesForAnyNumberOfThreads) {
+  ASSERT_EQ(bosquet("make grove.toml -o one.glb -o one.csv --threads 1 --quiet").status, 0);
+  for (const char* threads : {"2", "8"}) {
+    ASSERT_EQ(bosquet(std::string("make grove.toml -o more.glb -o more.csv --quiet --threads ") + threads).status, 0);
+    EXPECT_TRUE(file_text(folder_ / "one.glb") == file_text(folder_ / "more.glb")) << threads;
+    EXPECT_EQ(file_text(folder_ / "one.csv"), file_text(folder_ / "more.csv")) << threads;
+  }
+}
+
+TEST_F(Commands, AnotherSeedGivesAnotherForest) {
+  ASSERT_EQ(bosquet("make grove.toml -o a.csv --report a.json --quiet").status, 0);
+  ASSERT_EQ(bosquet("make grove.toml -o b.csv --report b.json --seed 6 --quiet").status, 0);
+  EXPECT_NE(json("a.json")["skeleton_digest"], json("b.json")["skeleton_digest"]);
+}
+
+TEST_F(Commands, InfoNamesEveryTreeWithItsSizes) {
+  ASSERT_EQ(bosquet("make grove.toml -o g.glb --quiet").status, 0);
+  const Ran text = bosquet("info g.glb");
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("silver_birch-"), std::string::npos);
+  EXPECT_NE(text.out.find("Picea abies"), std::string::npos);
+  const Ran ran = bosquet("info g.glb --json");
+  const auto info = nlohmann::json::parse(ran.out);
+  int trees = 0;
+  for (const auto& node : info["nodes"]) {
+    if (!node["extras"].contains("height_m")) continue;
+    ++trees;
+    EXPECT_GT(node["extras"]["height_m"], 2.0);
+    EXPECT_GT(node["extras"]["trunk_diameter_m"], 0.0);
+    EXPECT_GT(node["extras"]["crown_diameter_m"], 0.2);
+  }
+  EXPECT_EQ(trees, 9);
+  const Ran recipe = bosquet("info grove.toml --json");
+  EXPECT_EQ(nlohmann::json::parse(recipe.out)["trees"], 9);
+}
+
+TEST_F(Commands, RenderDrawsEveryView) {
+  for (const char* view : {"trees", "shapes", "regions", "arrows", "plan"}) {
+    const Ran ran = bosquet(std::string("render grove.toml -o v.png --size 320x240 --quiet --view ") + view);
+    ASSERT_EQ(ran.status, 0) << view << ran.err;
+    EXPECT_GT(std::filesystem::file_size(folder_ / "v.png"), 1000u) << view;
+  }
+}
+
+TEST_F(Commands, StatsMeasureThePatternsOfBasesAndCrowns) {
+  const Ran ran = bosquet("stats grove.toml --json --quiet");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto stats = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(stats["bases"]["n"], 9);
+  EXPECT_EQ(stats["bases"]["K_plain"].size(), stats["t_m"].size());
+  EXPECT_EQ(stats["crown_centroids"]["nearest_m"].size(), 9u);
+  EXPECT_TRUE(stats["cross"].contains("silver_birch->norway_spruce"));
+}
+
+TEST_F(Commands, ImportMakesARecipeFromAnInventoryAndItsGround) {
+  write("trees.csv", "x_m,y_m,species\n1,1,silver_birch\n9,7,oak\n");
+  write("hill.asc", "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -1\n" +
+                        std::string("1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n"));
+  const Ran made = bosquet("import park.toml --dem hill.asc --trees trees.csv");
+  ASSERT_EQ(made.status, 0) << made.err;
+  const auto info = nlohmann::json::parse(bosquet("info park.toml --json").out);
+  EXPECT_EQ(info["trees"], 2);
+  EXPECT_EQ(info["site_m"][0], 12.0);
+  EXPECT_EQ(info["site_m"][1], 10.0);
+  const std::string before = file_text(folder_ / "park.toml");
+  EXPECT_EQ(bosquet("import park.toml --trees missing.csv").status, 1);
+  EXPECT_EQ(file_text(folder_ / "park.toml"), before);
+}
+
+TEST_F(Commands, SpeciesAreListedAndShown) {
+  const Ran list = bosquet("species list");
+  for (const char* name : {"english_oak", "silver_birch", "norway_spruce", "weeping_willow"})
+    EXPECT_NE(list.out.find(name), std::string::npos);
+  EXPECT_NE(bosquet("species show norway_spruce").out.find("[growth]"), std::string::npos);
+}
+
+TEST_F(Commands, AnInterruptEndsCleanlyWithStatusTwoAndNoHalfFile) {
+  write("large.toml",
+        "[site]\nsize_m = [60, 60]\n[[planting]]\nspecies = { english_oak = 1 }\ncount = 60\nscale = [0.8, 1.0]\n");
+  const Ran ran = shell(std::string("'") + BOSQUET_PROGRAM +
+                        "' make large.toml -o large.glb --quiet & pid=$!; sleep 0.7; kill -INT $pid; wait $pid");
+  EXPECT_EQ(ran.status, 2) << ran.err;
+  EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << ran.err;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().string().find("large.glb"), std::string::npos) << entry.path();
+}
+
+}  // namespace
+}  // namespace bosquet

@@ -1,0 +1,76 @@
+#include "scene/species.h"
+
+#include <gtest/gtest.h>
+
+#include "growth/parameters.h"
+#include "scene/species_names.h"
+
+namespace bosquet::scene {
+namespace {
+
+std::vector<std::shared_ptr<const Species>> builtins() {
+  std::vector<std::shared_ptr<const Species>> all;
+  for (const std::string& name : builtin_species_names()) {
+    auto species = builtin_species(name);
+    EXPECT_TRUE(species) << species.error().message;
+    all.push_back(std::make_shared<const Species>(*species));
+  }
+  return all;
+}
+
+std::string matched(std::string_view name, NameMatch* how = nullptr) {
+  const auto all = builtins();
+  const SpeciesMatch match = match_species(name, all, 0);
+  if (how) *how = match.how;
+  return all[match.species]->name;
+}
+
+TEST(Species, EveryBuiltInFileIsReadAndChecked) {
+  const auto all = builtins();
+  ASSERT_GE(all.size(), 4u);
+  for (const auto& s : all) {
+    EXPECT_FALSE(s->botanical_name.empty()) << s->name;
+    EXPECT_FALSE(s->common_names.empty()) << s->name;
+    EXPECT_FALSE(s->genus_words.empty()) << s->name;
+    EXPECT_TRUE(growth::check(s->growth, s->name));
+    EXPECT_LT(s->shape.trunk_height_m, s->shape.mature_height_m);
+    EXPECT_LT(s->shape.trunk_width_m, s->shape.crown_width_m);
+  }
+}
+
+TEST(Species, AnUnknownNameListsTheKnownOnes) {
+  auto species = builtin_species("english_oka");
+  ASSERT_FALSE(species);
+  EXPECT_NE(species.error().message.find("did you mean 'english_oak'?"), std::string::npos);
+  EXPECT_NE(species.error().message.find("weeping_willow"), std::string::npos);
+}
+
+TEST(Species, TrunkFromHeightIsTheInverseOfHeightFromTrunk) {
+  const Allometry allometry;
+  for (float d : {0.05f, 0.3f, 0.9f}) EXPECT_NEAR(allometry.trunk_from_height_m(allometry.height_m(d)), d, 1e-4f * d);
+}
+
+TEST(SpeciesNames, AnExactNameIsFoundInAnyCaseAndPunctuation) {
+  NameMatch how{};
+  for (const char* name : {"english_oak", "English Oak", "Quercus robur", "QUERCUS_ROBUR", "pedunculate-oak"}) {
+    EXPECT_EQ(matched(name, &how), "english_oak") << name;
+    EXPECT_EQ(how, NameMatch::exact) << name;
+  }
+}
+
+TEST(SpeciesNames, AnUnknownSpeciesFallsBackToGenusThenLeafTypeThenDefault) {
+  NameMatch how{};
+  EXPECT_EQ(matched("blackoak", &how), "english_oak");
+  EXPECT_EQ(how, NameMatch::genus);
+  EXPECT_EQ(matched("Betula papyrifera", &how), "silver_birch");
+  EXPECT_EQ(how, NameMatch::genus);
+  EXPECT_EQ(matched("Douglas fir", &how), "norway_spruce");
+  EXPECT_EQ(how, NameMatch::leaf_type);
+  EXPECT_EQ(matched("hickory", &how), builtin_species_names().front());
+  EXPECT_EQ(how, NameMatch::fallback);
+  matched("", &how);
+  EXPECT_EQ(how, NameMatch::fallback);
+}
+
+}  // namespace
+}  // namespace bosquet::scene
