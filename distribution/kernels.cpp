@@ -34,8 +34,9 @@ KernelTable log2_kernel_table(KernelKind kind, float effect) {
   assert(effect >= 1.0f);
   KernelTable table{};
   for (int n = 0; n < kKernelSteps; ++n) {
-    const float steps = 65536.0f * log2(kernel_at(kind, effect, (static_cast<float>(n) + 0.5f) / kKernelSteps));
-    table[static_cast<std::size_t>(n)] = static_cast<std::int32_t>(steps + (steps < 0.0f ? -0.5f : 0.5f));
+    const float value = log2(kernel_at(kind, effect, (static_cast<float>(n) + 0.5f) / kKernelSteps));
+    const auto steps = static_cast<std::uint64_t>((value < 0.0f ? -value : value) * (1 << kLogBits) + 0.5f);
+    table[static_cast<std::size_t>(n)] = kind == KernelKind::clustering ? steps << 32 : steps;
   }
   return table;
 }

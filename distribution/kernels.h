@@ -7,6 +7,8 @@
 //             both, none   0 for d <= r, 1 for d > a (none: for d > r)
 // Erratum   eq. 6.2 prints 1 - 1/s + S/s, by which s = 1 inhibits totally and a large s not at all, against the text
 //           and against eq. 6.1. A value of the printed form: s_printed = s / (s - 1)
+// Decision  where kernels overlap they multiply, clustering up to the largest s acting on the species (the source
+//           multiplies without end, by which one cluster soon takes every tree), inhibition without such a limit
 // Holds     at the edge of the trunk K is s (clustering) and 1/s (inhibition); s = 1 is no effect
 // Units     metres; K and s dimensionless
 #pragma once
@@ -50,10 +52,12 @@ void describe(P& p, Visitor& visit) {
 /// K(distance); 1 beyond the active radius. An active radius not above `trunk_radius_m` acts as `none`.
 float kernel(KernelKind kind, float trunk_radius_m, float active_radius_m, float effect, float distance_m);
 
-/// log2 K over x = (d - r)/(a - r), in steps of 2^-16, as probability fields store it: entry n holds the value at
-/// x = (n + 1/2) / kKernelSteps and the last entry 0, for everything beyond.
+/// |log2 K| over x = (d - r)/(a - r), as probability fields store it: in steps of 2^-kLogBits, entry n for
+/// x = (n + 1/2) / kKernelSteps and the last entry 0, for everything beyond. Clustering counts in the upper 32 bits and
+/// inhibition in the lower, so one addition serves both and neither hides the other.
 inline constexpr int kKernelSteps = 512;
-using KernelTable = std::array<std::int32_t, kKernelSteps + 1>;
+inline constexpr int kLogBits = 10;
+using KernelTable = std::array<std::uint64_t, kKernelSteps + 1>;
 KernelTable log2_kernel_table(KernelKind kind, float effect);
 
 }  // namespace bosquet::distribution

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 #include "core/scalar.h"
@@ -18,7 +19,7 @@ constexpr float kFinestCell_m = 0.125f;  // a quarter of a trunk: finer fields o
 constexpr float kChosenCells = 1024.0f;  // along the longer side, unless a cell is asked for
 constexpr float kBucket_m = 2.0f;        // of the tree index: a few trees each in a dense stand
 constexpr float kMostBuckets = 1024.0f;  // along the longer side
-constexpr float kAnySlope_deg = 89.0f;   // from here on the slope is no limit
+constexpr float kAnySlope_deg = 89.0f;  // from here on the slope is no limit
 
 float steepness(Vec2 gradient) { return std::sqrt(gradient.x * gradient.x + gradient.y * gradient.y); }
 
@@ -90,6 +91,12 @@ Result<Planting> Planting::make(Terrain terrain, std::vector<Species> species,
                                s.rules.min_altitude_m, s.rules.max_altitude_m)};
   }
 
+  for (const Species& s : p.species_) {
+    p.name_hashes_.push_back(hash_text(s.name));
+    p.steepest_allowed_.push_back(s.rules.max_slope_deg < kAnySlope_deg ? rise_of(s.rules.max_slope_deg)
+                                                                        : std::numeric_limits<float>::max());
+  }
+  p.most_.assign(count, 1.0f);
   p.pairs_.resize(count * count);
   for (const Interaction& interaction : interactions) {
     const auto of = p.species_index(interaction.of), on = p.species_index(interaction.on);
@@ -101,6 +108,7 @@ Result<Planting> Planting::make(Terrain terrain, std::vector<Species> species,
       return Error{fmt::format("two interactions of '{}' on '{}'", interaction.of, interaction.on)};
     pair.acts = interaction.kind != KernelKind::none && interaction.effect > 1.0f;
     pair.active_radius_m = interaction.active_radius_m;
+    if (interaction.kind == KernelKind::clustering) p.most_[*on] = std::max(p.most_[*on], interaction.effect);
     if (pair.acts) pair.log2_kernel = log2_kernel_table(interaction.kind, interaction.effect);
   }
 
@@ -212,18 +220,17 @@ Refusal Planting::refusal(const StandingTree& tree) const {
   const PlantingRules& rules = species_[tree.species].rules;
   if (heights_.low < rules.min_altitude_m && terrain_.ground(tree.at) < rules.min_altitude_m) return Refusal::too_low;
   if (heights_.high > rules.max_altitude_m && terrain_.ground(tree.at) > rules.max_altitude_m) return Refusal::too_high;
-  if (rules.max_slope_deg < kAnySlope_deg) {
-    const float rise = rise_of(rules.max_slope_deg);
-    if (steepest_ > rise && steepness(terrain_.height.gradient(tree.at)) > rise) return Refusal::too_steep;
-  }
+  const float rise = steepest_allowed_[tree.species];
+  if (steepest_ > rise && steepness(terrain_.height.gradient(tree.at)) > rise) return Refusal::too_steep;
   return too_near(tree, false) ? Refusal::too_near : Refusal::none;
 }
 
-std::vector<std::uint8_t> Planting::suitability(const PlantingRules& rules) const {
+std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
+  const PlantingRules& rules = species_[species].rules;
   // What can be told for the whole site at once is not asked of every cell.
   const bool water = terrain_.water_level_m && heights_.low < *terrain_.water_level_m;
   const bool low = heights_.low<rules.min_altitude_m, high = heights_.high> rules.max_altitude_m;
-  const float rise = rules.max_slope_deg < kAnySlope_deg ? rise_of(rules.max_slope_deg) : steepest_;
+  const float rise = steepest_allowed_[species];
   const bool steep = steepest_ > rise;
   const bool exclusions = !everywhere(terrain_.exclusion, 0), thinned = !everywhere(terrain_.density, 255);
 
@@ -259,7 +266,7 @@ ProbabilityField& Planting::field(std::uint32_t species) {
   assert(species < species_.size());
   std::optional<ProbabilityField>& field = fields_[species];
   if (!field) {
-    field.emplace(cells_, cell_m_, suitability(species_[species].rules));
+    field.emplace(cells_, cell_m_, suitability(species), most_[species]);
     for (const StandingTree& tree : trees_) field->add(stamp(tree, species));
   }
   return *field;

@@ -48,6 +48,7 @@ class Planting {
   std::span<const StandingTree> trees() const { return trees_; }  ///< in no promised order
   const std::vector<Species>& species() const { return species_; }
   std::optional<std::uint32_t> species_index(std::string_view name) const;
+  std::uint64_t name_hash(std::uint32_t species) const { return name_hashes_[species]; }
   const terrain::Terrain& terrain() const { return terrain_; }
 
   /// Why `tree` may not stand where it does by its species' rules, or `none`. A standing tree of the same key is
@@ -73,11 +74,14 @@ class Planting {
   Refusal refusal_by_ground(Vec2 at) const;
   Stamp stamp(const StandingTree& tree, std::uint32_t on) const;
   const Pair& pair(std::uint32_t of, std::uint32_t on) const { return pairs_[of * species_.size() + on]; }
-  std::vector<std::uint8_t> suitability(const PlantingRules& rules) const;
+  std::vector<std::uint8_t> suitability(std::uint32_t species) const;
 
   terrain::Terrain terrain_;
   std::vector<Species> species_;
-  std::vector<Pair> pairs_;  // [of * species + on]
+  std::vector<Pair> pairs_;              // [of * species + on]
+  std::vector<float> most_;              // of each species: largest factor that clustering makes in its field
+  std::vector<float> steepest_allowed_;  // of each species: rise per metre
+  std::vector<std::uint64_t> name_hashes_;
   float cell_m_ = 1.0f;
   IVec2 cells_{0};
   terrain::HeightRange heights_;

@@ -15,26 +15,26 @@ constexpr int kBlock = 4;  // cells a side
 constexpr int kBlockCells = kBlock * kBlock;
 constexpr int kBlockLevel = 2;  // 2^2 cells a side
 
-// Logarithms count in steps of 2^-16; weights are clamped to 2^-20 .. 2^20 and count in steps of 2^-20.
-constexpr int kStepBits = 16;
-constexpr std::int64_t kClamp = std::int64_t{20} << kStepBits;
+// Weights lie from 2^-20 to 2^20 and count in steps of 2^-20.
+constexpr std::uint32_t kRange = 20u << kLogBits;
 
-// 2^(n / 4096) in steps of 2^-24: exact to the last of the 24 bits of a float.
-constexpr int kFractionBits = 12;
-const std::array<std::uint64_t, 1 << kFractionBits>& fractions() {
+// 2^(n / 1024) in steps of 2^-24: exact to the last of the 24 bits of a float.
+const std::array<std::uint32_t, 1 << kLogBits>& fractions() {
   static const auto table = [] {
-    std::array<std::uint64_t, 1 << kFractionBits> t{};
+    std::array<std::uint32_t, 1 << kLogBits> t{};
     for (std::size_t n = 0; n < t.size(); ++n)
-      t[n] = static_cast<std::uint64_t>(exp2(static_cast<float>(n) / (1 << kFractionBits)) * 0x1p24f);
+      t[n] = static_cast<std::uint32_t>(exp2(static_cast<float>(n) / (1 << kLogBits)) * 0x1p24f);
     return t;
   }();
   return table;
 }
 
-std::uint64_t fixed_exp2(const std::uint64_t* fraction, std::int64_t log2_steps) {
-  const auto x = static_cast<std::uint64_t>(std::clamp(log2_steps, -kClamp, kClamp - 1) + kClamp);
-  const std::uint64_t f = (x >> (kStepBits - kFractionBits)) & ((1u << kFractionBits) - 1);
-  return (fraction[f] << (x >> kStepBits)) >> 24;
+// Weight of a cell with these sums of logarithms, clustering in the upper half.
+std::uint64_t fixed_exp2(const std::uint32_t* fraction, std::uint64_t sums, std::uint32_t most) {
+  const std::uint32_t up = std::min(static_cast<std::uint32_t>(sums >> 32), most);
+  const std::uint32_t down = std::min(static_cast<std::uint32_t>(sums), kRange);
+  const std::uint32_t x = kRange + up - down;
+  return (static_cast<std::uint64_t>(fraction[x & ((1u << kLogBits) - 1)]) << (x >> kLogBits)) >> 24;
 }
 
 std::uint64_t suited(std::uint64_t weight, std::uint8_t suitability) {
@@ -70,15 +70,19 @@ std::uint64_t node_number(std::uint32_t attempt, int level, int x, int y) {
 
 }  // namespace
 
-ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability)
+ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability, float most)
     : cells_(cells), cell_m_(cell_m), blocks_((cells + kBlock - 1) / kBlock) {
   assert(cells.x > 0 && cells.y > 0 && cells.x <= kMostFieldCells && cells.y <= kMostFieldCells && cell_m > 0.0f);
   const std::size_t blocks = static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y);
   assert(suitability.empty() ||
          suitability.size() == static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y));
+  assert(most >= 1.0f);
+  // One step less than 2^20, so that the sum of all cells of the largest field fits 64 bits.
+  most_steps_ =
+      std::min(static_cast<std::uint32_t>(log2(std::min(most, 0x1p20f)) * (1 << kLogBits) + 0.5f), kRange - 1);
   log2_.assign(blocks * kBlockCells, 0);
   cover_.assign(blocks * kBlockCells, 1);
-  suitability_.assign(blocks * kBlockCells, 0);
+  suitability_.assign(blocks * kBlockCells, 255);
   for (int j = 0; j < cells.y; ++j)
     for (int i = 0; i < cells.x; ++i) {
       const std::size_t n = place({i, j});
@@ -88,6 +92,11 @@ ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const st
                             : suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) +
                                           static_cast<std::size_t>(i)];
     }
+  suits_wholly_.resize(blocks);
+  for (std::size_t b = 0; b < blocks; ++b)
+    suits_wholly_[b] = std::all_of(suitability_.begin() + static_cast<std::ptrdiff_t>(b * kBlockCells),
+                                   suitability_.begin() + static_cast<std::ptrdiff_t>((b + 1) * kBlockCells),
+                                   [](std::uint8_t suits) { return suits == 255; });
   for (IVec2 nodes = blocks_;; nodes = (nodes + 1) / 2) {
     levels_.push_back(
         {nodes, std::vector<Pair>(static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y))});
@@ -105,9 +114,12 @@ std::size_t ProbabilityField::place(IVec2 cell) const {
          static_cast<std::size_t>(cell.x % kBlock);
 }
 
+std::uint64_t ProbabilityField::open_weight(std::size_t n) const {
+  return cover_[n] == 0 ? fixed_exp2(fractions().data(), log2_[n], most_steps_) : 0;
+}
+
 ProbabilityField::Pair ProbabilityField::cell_weight(std::size_t n) const {
-  if (cover_[n] != 0) return {};
-  const std::uint64_t open = fixed_exp2(fractions().data(), log2_[n]);
+  const std::uint64_t open = open_weight(n);
   return {open, suited(open, suitability_[n])};
 }
 
@@ -115,12 +127,15 @@ std::uint64_t ProbabilityField::weight(IVec2 cell) const { return cell_weight(pl
 std::uint8_t ProbabilityField::suitability(IVec2 cell) const { return suitability_[place(cell)]; }
 
 ProbabilityField::Pair ProbabilityField::block_sum(std::size_t block) const {
-  const std::uint64_t* fraction = fractions().data();
+  const std::size_t first = block * kBlockCells;
+  const std::uint32_t* fraction = fractions().data();
   Pair sum;
-  for (std::size_t n = block * kBlockCells; n < (block + 1) * kBlockCells; ++n) {
-    const std::uint64_t open = cover_[n] == 0 ? fixed_exp2(fraction, log2_[n]) : 0;
-    sum.open += open;
-    sum.suited += suited(open, suitability_[n]);
+  if (suits_wholly_[block]) {
+    for (std::size_t n = first; n < first + kBlockCells; ++n)
+      sum.open += cover_[n] == 0 ? fixed_exp2(fraction, log2_[n], most_steps_) : 0;
+    sum.suited = sum.open;
+  } else {
+    for (std::size_t n = first; n < first + kBlockCells; ++n) sum += cell_weight(n);
   }
   return sum;
 }
@@ -184,7 +199,7 @@ void ProbabilityField::apply(const Stamp& stamp, int sign) {
       if (!touched && !closes) continue;
       const std::size_t block =
           static_cast<std::size_t>(by) * static_cast<std::size_t>(blocks_.x) + static_cast<std::size_t>(bx);
-      std::int64_t* logs = log2_.data() + block * kBlockCells;
+      std::uint64_t* logs = log2_.data() + block * kBlockCells;
       std::uint32_t* covers = cover_.data() + block * kBlockCells;
 
       if (closes) {  // cells that lie within the covered radius with all their corners
@@ -202,8 +217,11 @@ void ProbabilityField::apply(const Stamp& stamp, int sign) {
           s = s > 0.0f ? s : 0.0f;
           step[static_cast<std::size_t>(k)] = static_cast<int>(s < kLast ? s : kLast);
         }
-        const std::int32_t* table = stamp.log2_kernel->data();
-        for (int k = 0; k < kBlockCells; ++k) logs[k] += sign * table[step[static_cast<std::size_t>(k)]];
+        const std::uint64_t* table = stamp.log2_kernel->data();
+        for (int k = 0; k < kBlockCells; ++k) {
+          const std::uint64_t value = table[step[static_cast<std::size_t>(k)]];
+          logs[k] += sign > 0 ? value : -value;
+        }
       }
 
       levels_[0].sums[block] = block_sum(block);
@@ -256,22 +274,28 @@ std::optional<IVec2> ProbabilityField::draw(const RegionMask& mask, Sums which, 
   int level = top_, x = 0, y = 0;
   std::size_t node = 0;
   bool full = false;  // the whole node lies in the mask, which has no nodes below it
+  const auto choose = [&](const std::array<std::uint64_t, 4>& four, int at_level, int at_x, int at_y) {
+    int chosen = -1;
+    double chosen_time = 0.0, chosen_sum = 0.0;
+    for (int c = 0; c < 4; ++c) {
+      const std::uint64_t one = four[static_cast<std::size_t>(c)];
+      if (one == 0) continue;
+      const double time = race_time(stream.at(node_number(attempt, at_level, at_x + c % 2, at_y + c / 2)));
+      const auto weight = static_cast<double>(one);
+      if (chosen < 0 || time * chosen_sum < chosen_time * weight) chosen = c, chosen_time = time, chosen_sum = weight;
+    }
+    assert(chosen >= 0);
+    return chosen;
+  };
   while (level > 0) {
     const RegionMask::Node& at = mask.nodes()[node];
     full = full || at.cover == RegionMask::Cover::full;
     --level, x *= 2, y *= 2;
-    int chosen = -1;
-    double chosen_time = 0.0, chosen_sum = 0.0;
-    for (int c = 0; c < 4; ++c) {
-      const int cx = x + c % 2, cy = y + c / 2;
-      const std::uint64_t sum =
-          full ? node_sum(which, level, cx, cy) : sums[at.first_child + static_cast<std::uint32_t>(c)];
-      if (sum == 0) continue;
-      const double time = race_time(stream.at(node_number(attempt, level, cx, cy)));
-      const auto weight = static_cast<double>(sum);
-      if (chosen < 0 || time * chosen_sum < chosen_time * weight) chosen = c, chosen_time = time, chosen_sum = weight;
-    }
-    assert(chosen >= 0);
+    std::array<std::uint64_t, 4> four{};
+    for (int c = 0; c < 4; ++c)
+      four[static_cast<std::size_t>(c)] =
+          full ? node_sum(which, level, x + c % 2, y + c / 2) : sums[at.first_child + static_cast<std::uint32_t>(c)];
+    const int chosen = choose(four, level, x, y);
     x += chosen % 2, y += chosen / 2;
     if (!full) node = at.first_child + static_cast<std::uint32_t>(chosen);
   }

@@ -2,11 +2,13 @@
 //
 // Source    Longay 2014, 6.4.1 (fields multiplied by kernels; drawn by summing rows and columns)
 // Model     weight of a cell = suitability * 2^(sum of log2 K over the standing trees), 0 where a tree leaves no room
-// Decision  logarithms instead of products, and integers instead of floats: a cell holds an int32 sum of log2 K in
-// steps
-//           of 2^-16 and a count of the trees that cover it; its weight is a 64-bit fixed-point number, the exponent
-//           clamped to [-20, 20). So adding and taking away are exact and in any order, a field is a function of the
-//           trees standing, and no number of overlapping kernels overflows a weight
+// Decision  logarithms instead of products, and integers instead of floats: a cell holds one sum of log2 K for
+// clustering
+//           and one for inhibition, in steps of 2^-10, and a count of the trees that cover it; its weight is a 64-bit
+//           fixed-point number. So adding and taking away are exact and in any order, a field is a function of the
+//           trees standing, and 400,000 kernels of the strongest effect may overlap
+// Decision  overlapping clusters multiply up to `most` only. The source multiplies without end: from some ten trees a
+//           cluster outweighs the whole site and takes all that are planted. Inhibition ends at 2^-20
 // Drawing   instead of the source's rows and columns a quadtree of sums is descended. Every node has a random number
 //           u(key, attempt, node) of its own and at each node the child with the smallest -log2(u) / sum is taken,
 //           which happens with probability proportional to the sum. When a part of the site loses its weight only the
@@ -47,8 +49,9 @@ struct Stamp {
 
 class ProbabilityField {
  public:
-  /// `suitability` of each cell (0 never, 255 fully), row by row from the south; empty: 255 everywhere.
-  ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability = {});
+  /// `suitability` of each cell (0 never, 255 fully), row by row from the south; empty: 255 everywhere. `most`: largest
+  /// factor that clustering makes, 1 to 2^20.
+  ProbabilityField(IVec2 cells, float cell_m, std::span<const std::uint8_t> suitability = {}, float most = 0x1p20f);
 
   void add(const Stamp& stamp) { apply(stamp, 1); }
   void remove(const Stamp& stamp) { apply(stamp, -1); }
@@ -93,6 +96,7 @@ class ProbabilityField {
   Pair block_sum(std::size_t block) const;
   void sum_above(IVec2 low, IVec2 high);
   std::size_t place(IVec2 cell) const;
+  std::uint64_t open_weight(std::size_t place) const;
   Pair cell_weight(std::size_t place) const;
   std::uint64_t node_sum(Sums which, int level, int x, int y) const;
 
@@ -100,10 +104,12 @@ class ProbabilityField {
   float cell_m_;
   IVec2 blocks_;
   int top_ = 0;
-  std::vector<std::int64_t> log2_;    // in steps of 2^-16
+  std::uint32_t most_steps_ = 0;      // log2 of `most`
+  std::vector<std::uint64_t> log2_;   // sums of the kernels' tables
   std::vector<std::uint32_t> cover_;  // how many trees leave no room; 1 in cells that only fill up a block
   std::vector<std::uint8_t> suitability_;
-  std::vector<Level> levels_;  // levels_[n] holds level n + 2
+  std::vector<std::uint8_t> suits_wholly_;  // of each block: 255 in all its cells
+  std::vector<Level> levels_;               // levels_[n] holds level n + 2
 };
 
 }  // namespace bosquet::distribution

@@ -122,7 +122,7 @@ std::optional<std::size_t> draw_type(const Planting& planting, const Sowing& wha
     if (!(entry.probability > 0.0f) || (!full.empty() && full[n])) continue;
     std::uint64_t same = 0;  // earlier entries of this species, told apart by their scales
     for (std::size_t m = 0; m < n; ++m) same += what.mix[m].species == entry.species ? 1 : 0;
-    const std::uint64_t number = hash_text(planting.species()[entry.species].name) + same;
+    const std::uint64_t number = planting.name_hash(entry.species) + same;
     const float time = -log2(unit(stream.at(kTypeNumbers | number)) + 0x1p-25f) / entry.probability;
     if (!first || time < first_time) first = n, first_time = time;
   }

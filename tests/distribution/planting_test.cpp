@@ -169,11 +169,15 @@ double share_moved(const terrain::Terrain& before, const terrain::Terrain& after
 
 TEST(Sowing, ExcludingFivePercentOfTheSiteMovesFewOfTheOtherTrees) {
   const terrain::Terrain before = flat({100, 100});
+  const std::vector<Interaction> mild{{"a", "a", KernelKind::clustering, 4, 3},
+                                      {"a", "b", KernelKind::inhibition, 4, 3},
+                                      {"b", "a", KernelKind::inhibition, 4, 3}};
   for (const Box2 box : {Box2{{0, 0}, {22.36f, 22.36f}}, Box2{{40, 55}, {62.36f, 77.36f}}, Box2{{0, 30}, {100, 35}}}) {
     Polygon area{{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}, {}};
     const terrain::Terrain after = terrain::exclude(before, area);
-    EXPECT_LT(share_moved(before, after, {}, box, 400), 0.10) << box.low.x << ' ' << box.low.y;
-    EXPECT_GT(share_moved(before, after, {}, box, 400), 0.0);
+    EXPECT_LT(share_moved(before, after, {}, box, 400), 0.01) << box.low.x << ' ' << box.low.y;
+    // Through kernels a moved tree also changes the draws of those sown later near its old and new place.
+    EXPECT_LT(share_moved(before, after, mild, box, 400), 0.10) << box.low.x << ' ' << box.low.y;
   }
 }
 

@@ -96,21 +96,36 @@ RC_GTEST_PROP(ProbabilityField, AddingAndRemovingInAnyOrderEqualsARebuildBitForB
 }
 
 TEST(ProbabilityField, OverlappingKernelsInAnyNumberNeverOverflow) {
-  // A float product would be infinite after 13 of these; an int32 of logarithms would wrap after 3,288.
+  // A float product would be infinite after 13 of these; an int32 of logarithms in steps of 2^-16 would wrap after
+  // 3,288.
   const KernelTable near = log2_kernel_table(KernelKind::clustering, 1000.0f);
   const KernelTable away = log2_kernel_table(KernelKind::inhibition, 1000.0f);
   ProbabilityField field({40, 40}, 0.5f);
   const Stamp stamp{{10, 10}, 0.2f, 6.0f, &near, 0.2f}, against{{10, 10}, 0.2f, 6.0f, &away, 0.2f};
-  for (int n = 0; n < 20'000; ++n) field.add(stamp);
-  EXPECT_GT(field.weight({20, 20}), kOne << 19);
-  EXPECT_LE(field.weight({20, 20}), kOne << 20);
+  for (int n = 0; n < 100'000; ++n) field.add(stamp);
+  EXPECT_NEAR(static_cast<double>(field.weight({20, 20})), 0x1p40, 0x1p30);
   EXPECT_EQ(field.weight({39, 39}), kOne);
   EXPECT_TRUE(draw(field, kEverywhere, 1));
-  for (int n = 0; n < 40'000; ++n) field.add(against);
+  for (int n = 0; n < 100'000; ++n) field.add(against);
+  EXPECT_NEAR(static_cast<double>(field.weight({20, 20})), 0x1p20, 0x1p10);  // both at their ends
+  for (int n = 0; n < 100'000; ++n) field.remove(stamp);
   EXPECT_EQ(field.weight({20, 20}), 1u);  // 2^-20: hardly ever, but possible when nothing else is left
-  for (int n = 0; n < 40'000; ++n) field.remove(against);
-  for (int n = 0; n < 20'000; ++n) field.remove(stamp);
+  for (int n = 0; n < 100'000; ++n) field.remove(against);
   EXPECT_EQ(field, ProbabilityField({40, 40}, 0.5f));
+}
+
+TEST(ProbabilityField, ClustersMultiplyUpToTheLargestFactorAndInhibitionIsNotLostInThem) {
+  const KernelTable near = log2_kernel_table(KernelKind::clustering, 8.0f);
+  const KernelTable away = log2_kernel_table(KernelKind::inhibition, 4.0f);
+  ProbabilityField field({40, 40}, 0.5f, {}, 20.0f);
+  const auto factor = [&] { return static_cast<double>(field.weight({20, 20})) / static_cast<double>(kOne); };
+  const Stamp stamp{{10.25f, 10.25f}, 0.0f, 600.0f, &near, 0.0f}, against{{10.25f, 10.25f}, 0.0f, 600.0f, &away, 0.0f};
+  field.add(stamp);
+  EXPECT_NEAR(factor(), 8.0, 0.02);
+  for (int n = 0; n < 50; ++n) field.add(stamp);
+  EXPECT_NEAR(factor(), 20.0, 0.02);
+  field.add(against);
+  EXPECT_NEAR(factor(), 5.0, 0.01);
 }
 
 TEST(ProbabilityField, CellsAreDrawnInProportionToTheirWeights) {
