@@ -50,8 +50,8 @@ TEST_F(ThreeJs, ShowsTheRiverBankWithTheOutlineOfOurOwnPicture) {
   ASSERT_TRUE(ours);
   ASSERT_TRUE(exchange::write_image(folder_ / "ours.png", *ours));
 
-  const Ran ran = shell("node '" + source("tests/web/view.mjs") + "' riverbank.glb theirs.png --silhouette --size " + std::to_string(kWidth) + "x" +
-                        std::to_string(kHeight) + " --camera " + view.camera.name);
+  const Ran ran = shell("node '" + source("tests/web/view.mjs") + "' riverbank.glb theirs.png --silhouette --size " +
+                        std::to_string(kWidth) + "x" + std::to_string(kHeight) + " --camera " + view.camera.name);
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(nlohmann::json::parse(ran.out)["triangles"], built->triangles);
   auto theirs = exchange::read_image(folder_ / "theirs.png");
