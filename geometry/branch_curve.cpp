@@ -15,6 +15,9 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr float kTolerance_m = 0.003f;
 constexpr float kToleranceOfRadius = 0.06f;
 
+// Wood of this radius or, where there is thinner wood, the thinnest, has three sides.
+constexpr float kTipRadius_m = 0.004f;
+
 // Rings are wanted at least so often, so that tints by height and occlusion can change along a straight trunk.
 constexpr float kLongestSpan_m = 2.0f;
 
@@ -138,6 +141,19 @@ struct Fork {
   }
 };
 
+/// How far a ring would stick out of the parent, metres; 0 when it is inside.
+float protrusion(const Fork& fork, const BranchSample& ring) {
+  const Vec3 level = glm::cross(ring.tangent, std::abs(ring.tangent.y) < 0.9f ? kUp : Vec3{1, 0, 0});
+  const Vec3 a = direction(level, Vec3{1, 0, 0}), b = glm::cross(ring.tangent, a);
+  float most = 0.0f;
+  for (const float x : {-1.0f, -0.70710678f, 0.0f, 0.70710678f, 1.0f}) {
+    const float y = std::sqrt(1.0f - x * x);
+    for (const float side : {y, -y})
+      most = std::max(most, fork.outside(ring.centre + ring.radius * (x * a + side * b)));
+  }
+  return most;
+}
+
 /// The samples of a curve within `reach` metres of sample `at`, at least one on either side.
 std::span<const BranchSample> around(std::span<const BranchSample> curve, std::size_t at, float reach) {
   std::size_t low = at, high = at;
@@ -154,7 +170,7 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
   BranchCurves result;
   result.curves.reserve(paths.paths.size());
   result.samples.reserve(3 * paths.internodes.size());
-  result.tip_radius = kInfinite;
+  result.tip_radius = kTipRadius_m;
 
   // Of each internode's upper end, for its children: where the curve passes, in which direction, at which sample.
   std::vector<Vec3> node_at(skeleton.size());
@@ -217,6 +233,7 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
     const float flare_top = std::min(shape.root_flare_height * curve.base_radius, kFlareTop_m);
     const float collar = shape.collar_length * curve.base_radius;
     bool in_collar = !fork.parent.empty();
+    float room = std::max(curve.base_radius, 0.92f * fork.radius);  // widest that the parent can hide
     Vec3 last = nodes.front().at;
     for (std::size_t j = 0; j + 1 < nodes.size(); ++j) {
       const Hermite h = piece(nodes, j, start);
@@ -241,8 +258,11 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
         } else if (in_collar) {
           const float outside = fork.outside(s.centre);
           const float x = 1.0f - std::clamp(outside / collar, 0.0f, 1.0f);
-          const float room = std::max(s.wood, 0.92f * fork.radius);
           s.radius = std::min(s.wood * (1.0f + shape.collar * x * x), room);
+          if (j == 0 && k == 0) {
+            s.radius = std::max(0.6f * s.wood, s.radius - protrusion(fork, s));
+            room = std::max(s.wood, s.radius);
+          }
           in_collar = outside < collar;
         }
         add(result.samples, curve.first, s);

@@ -49,7 +49,7 @@ struct BranchCurve {
 struct BranchCurves {
   std::vector<BranchCurve> curves;  ///< a parent precedes its children
   std::vector<BranchSample> samples;
-  float tip_radius = 0;  ///< of the thinnest wood
+  float tip_radius = 0;  ///< of the thinnest wood; at most 4 mm
 
   std::span<const BranchSample> of(const BranchCurve& c) const { return {samples.data() + c.first, c.count}; }
 };

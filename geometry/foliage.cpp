@@ -80,10 +80,22 @@ Vec3 radial_at(const Vec3& twig, float azimuth) {
   return a.cos * side + a.sin * glm::cross(side, twig);
 }
 
-/// Normal of a blade that hangs below level and away in the direction of its stalk.
-Vec3 hanging(const Vec3& heading, const SinCos& droop, const Vec3& out) {
+/// Where a blade or twig that hangs `droop` below level, away from its foot, points, and the normal of its upper side.
+struct Hanging {
+  Vec3 heading, normal;
+};
+Hanging hanging(const Vec3& heading, const SinCos& droop, const Vec3& out) {
   const Vec3 away = unit(Vec3{heading.x, 0, heading.z}, unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0}));
-  return droop.cos * kUp + droop.sin * away;
+  return {droop.cos * away - droop.sin * kUp, droop.cos * kUp + droop.sin * away};
+}
+
+/// The stalk sinks under its load, the more the softer it is.
+LeafFrame sunk(const LeafFrame& frame, const Vec3& heading, float softness) {
+  LeafFrame f;
+  f.heading = unit(glm::mix(frame.heading, heading, softness / (1.0f + softness)), frame.heading);
+  f.up = unit(frame.up - glm::dot(frame.up, f.heading) * f.heading, frame.left);
+  f.left = glm::cross(f.up, f.heading);
+  return f;
 }
 
 std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
@@ -226,7 +238,7 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
 std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
   switch (level) {
     case FoliageLevel::leaves:
-      return 4;
+      return 2;
     case FoliageLevel::clusters:
       return foliage.cluster_planes == 1 ? 4 : 2 * static_cast<std::size_t>(foliage.cluster_planes);
     case FoliageLevel::cards:
@@ -323,16 +335,17 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       const LeafFrame foot =
           site.tip ? stalk(branch, radial_at(branch, 0.5f * kPi), {0.0f, 1.0f}) : stalk(branch, radial, insertion);
       // A card that stands for many looks out of the crown, a piece of its shell.
-      const Vec3 level_twig = hanging(foot.heading, twig_droop, out);
-      const auto any = [&](std::uint64_t k) {
-        return static_cast<float>(of_twig.at(kAny + k) >> 40) * 0x1p-23f - 1.0f;
+      const Hanging hang = hanging(foot.heading, twig_droop, out);
+      const auto any = [&](std::uint64_t number) {
+        return static_cast<float>(of_twig.at(kAny + number) >> 40) * 0x1p-23f - 1.0f;
       };
       const float shell = single ? 0.0f : crowding;
-      const Vec3 toward = unit(glm::mix(level_twig, out, std::max(look.sun_turn * light, shell)) +
+      const Vec3 toward = unit(glm::mix(hang.normal, out, std::max(look.sun_turn * light, shell)) +
                                    0.7f * shell * Vec3{any(0), any(1), any(2)},
                                kUp);
       const float ease = 0.6f * (0.9f + 0.3f * any(3)) * (1.0f + shell);
-      twig_frame = turn_petiole(foot, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+      twig_frame = turn_petiole(sunk(foot, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
+                                ease * look.turn);
     }
 
     // A single leaf stands on its twig as the twig on the branch.
@@ -346,9 +359,11 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       const float azimuth = radians(look.divergence_deg) * static_cast<float>(site.leaf) + site.azimuth;
       at += place_on_twig(leaf, site.leaf, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
       frame = stalk(twig, radial_at(twig, azimuth), insertion);
-      const Vec3 toward = unit(glm::mix(hanging(frame.heading, leaf_droop, out), out, look.sun_turn * light), kUp);
+      const Hanging hang = hanging(frame.heading, leaf_droop, out);
+      const Vec3 toward = unit(glm::mix(hang.normal, out, look.sun_turn * light), kUp);
       const float ease = random.uniform(0.6f, 1.2f);
-      frame = turn_petiole(frame, toward, ease * look.twist, ease * look.bend, ease * look.turn);
+      frame = turn_petiole(sunk(frame, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
+                           ease * look.turn);
     }
 
     // How it looks.

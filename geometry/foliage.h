@@ -10,6 +10,9 @@
 //             about U (turn)    Omega_U =  e_U L.(T x (H x T))
 //           T is the normal of a blade that hangs `droop` below level away from its twig, drawn toward the open side of
 //           the crown where there is much light
+// Decision  these turns alone let no leaf hang (they turn the blade, not the stalk's foot), so first its weight bends
+// the
+//           stalk toward the direction that hangs so far below level, by bend / (1 + bend) of the way
 // Levels    clusters: one card (folded along its twig) or crossed cards for each leafed twig of 5-15 leaves.
 //           leaves: each of these twigs with a card for every leaf of its own and one for its wood. cards: few, large
 //           twig cards for far trees. All show cells of the leaf atlas (leaf_atlas.h), and stand at the same places

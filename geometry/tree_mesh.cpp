@@ -67,16 +67,22 @@ TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float
 std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const float> radius, const Look& look,
                                const FoliageLook& foliage, const MeshOptions& options) {
   const auto stands = standing(skeleton, options.season_of_growth);
-  float thinnest = 0.0f;
-  for (std::size_t i = 0; i < skeleton.size(); ++i)
-    if (stands[i] && (thinnest == 0.0f || radius[i] < thinnest)) thinnest = radius[i];
+  float thinnest = 0.004f;
+  std::vector<std::uint8_t> tip(stands.begin(), stands.end());
+  for (std::size_t i = 0; i < skeleton.size(); ++i) {
+    if (!stands[i]) continue;
+    thinnest = std::min(thinnest, std::max(radius[i], 1e-4f));
+    if (skeleton.parent[i] >= 0) tip[static_cast<std::size_t>(skeleton.parent[i])] = 0;
+  }
 
+  // Rings in use are about one and a half for each internode; each tip bears a twig more.
   double wood = 0.0, leafy_m = 0.0;
   for (std::size_t i = 0; i < skeleton.size(); ++i) {
     if (!stands[i]) continue;
     const Vec3 d = skeleton.distal[i] - skeleton.proximal(i);
-    wood += std::min(56.0f, 6.0f * std::sqrt(radius[i] / std::max(thinnest, 1e-5f)));
-    if (2000.0f * radius[i] <= foliage.max_twig_mm) leafy_m += std::sqrt(glm::dot(d, d));
+    wood += std::min(84.0f, 9.0f * std::sqrt(radius[i] / thinnest));
+    if (2000.0f * radius[i] <= foliage.max_twig_mm)
+      leafy_m += std::sqrt(glm::dot(d, d)) + (tip[i] ? foliage.cluster_spacing_m : 0.0f);
   }
   auto sites = static_cast<std::size_t>(leafy_m / static_cast<double>(foliage.cluster_spacing_m));
   if (options.foliage == FoliageLevel::leaves)

@@ -110,7 +110,7 @@ inline growth::Skeleton test_skeleton(const TestTree& t, std::uint64_t seed) {
 /// Trees of many habits: slim, bushy, hanging, gnarled, thick and short, with several stems, one twig.
 inline std::vector<growth::Skeleton> test_skeletons() {
   std::vector<growth::Skeleton> all;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     all.push_back(test_skeleton({}, seed));
     all.push_back(test_skeleton({.seasons = 9, .up = -0.25f}, seed));
     all.push_back(test_skeleton({.seasons = 9, .wobble = 1.2f}, seed));
