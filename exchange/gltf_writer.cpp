@@ -62,28 +62,27 @@ Json to_json(const scene::Extras& extras) {
   return out;
 }
 
-// The unit quaternion that turns local +Z to `z`, with local +Y as near to up as can be (north, when z is vertical).
+struct HalfAngle {
+  double sin, cos;
+};
+
+// Of the angle in (-pi, pi] with this sine and cosine; nothing is divided by a small number.
+HalfAngle half(double sine, double cosine) {
+  if (cosine >= 0) {
+    const double c = std::sqrt((1 + cosine) / 2);
+    return {sine / (2 * c), c};
+  }
+  const double s = std::copysign(std::sqrt((1 - cosine) / 2), sine);
+  return {s, sine / (2 * s)};
+}
+
+// The unit quaternion that turns local +Z to `z` with local +X level: first pitch about X, then yaw about Y. Straight
+// down the picture's upper edge is north.
 Vec4 facing(DVec3 z) {
   z = glm::normalize(z);
-  const DVec3 up = std::abs(z.y) < 0.999999 ? DVec3(0, 1, 0) : DVec3(0, 0, -1);
-  const DVec3 x = glm::normalize(glm::cross(up, z)), y = glm::cross(z, x);
-  // Largest of the four components first (Shepperd 1978), so that nothing is divided by a small number.
-  const double trace = x.x + y.y + z.z;
-  glm::dvec4 q;
-  if (trace > 0) {
-    const double s = 2 * std::sqrt(1 + trace);
-    q = {(y.z - z.y) / s, (z.x - x.z) / s, (x.y - y.x) / s, s / 4};
-  } else if (x.x > y.y && x.x > z.z) {
-    const double s = 2 * std::sqrt(1 + x.x - y.y - z.z);
-    q = {s / 4, (y.x + x.y) / s, (z.x + x.z) / s, (y.z - z.y) / s};
-  } else if (y.y > z.z) {
-    const double s = 2 * std::sqrt(1 + y.y - x.x - z.z);
-    q = {(y.x + x.y) / s, s / 4, (z.y + y.z) / s, (z.x - x.z) / s};
-  } else {
-    const double s = 2 * std::sqrt(1 + z.z - x.x - y.y);
-    q = {(z.x + x.z) / s, (z.y + y.z) / s, s / 4, (x.y - y.x) / s};
-  }
-  return Vec4(q);
+  const double level = std::sqrt(z.x * z.x + z.z * z.z);
+  const HalfAngle pitch = half(-z.y, level), yaw = level > 1e-9 ? half(z.x / level, z.z / level) : HalfAngle{0, 1};
+  return Vec4(yaw.cos * pitch.sin, yaw.sin * pitch.cos, -yaw.sin * pitch.sin, yaw.cos * pitch.cos);
 }
 
 // A URI is ASCII: anything else in a file's name is written as %XX.

@@ -246,6 +246,35 @@ TEST(GltfWriter, CamerasLookFromTheEyeToTheTargetWithNorthUpInPlan) {
   }
 }
 
+TEST(GltfWriter, CamerasInEveryDirectionKeepTheHorizonLevel) {
+  const ScratchFolder folder;
+  scene::Model model;
+  for (float x : {-3.0f, -0.5f, 0.0f, 0.5f, 3.0f})
+    for (float y : {-2.0f, 0.1f, 1.0f, 9.0f})
+      for (float z : {-2.0f, 0.7f, 4.0f})
+        model.cameras.push_back({std::to_string(model.cameras.size()), {x, y, z}, {0, 0, 0}, 40.0f});
+  ASSERT_TRUE(write_gltf(model, folder / "a.glb"));
+  const ReadBack back = read_back(folder / "a.glb");
+  for (const scene::Camera& camera : model.cameras) {
+    const ReadNode& node = named(back, camera.name);
+    EXPECT_LT(glm::length(turned(node.rotation, {0, 0, -1}) - glm::normalize(-camera.eye)), 1e-6f) << camera.name;
+    EXPECT_NEAR(turned(node.rotation, {1, 0, 0}).y, 0.0f, 1e-6f) << camera.name;
+    EXPECT_GT(turned(node.rotation, {0, 1, 0}).y, 0.0f) << camera.name;
+  }
+}
+
+TEST(GltfWriter, NormalMapsKeepTheirColourAtFullResolution) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_gltf(sample_model(), folder / "a.gltf"));
+  // The start-of-frame segment: marker, length, precision, height, width, count, then id and sampling of luminance.
+  const auto sampling = [&](const std::string& file) {
+    const std::string jpeg = slurp(folder / file);
+    return static_cast<int>(jpeg.at(jpeg.find("\xff\xc0") + 11));
+  };
+  EXPECT_EQ(sampling("a-oak_bark-normal.jpg"), 0x11);
+  EXPECT_EQ(sampling("a-oak_bark-colour.jpg"), 0x22);
+}
+
 TEST(GltfWriter, TheSunShinesFromWhereItStands) {
   const ScratchFolder folder;
   scene::Model model = sample_model();
