@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::int32_t kEdge = kTileEdge;
 constexpr std::int32_t kNoGround = std::numeric_limits<std::int32_t>::max();  // first layer of a column off the domain
+constexpr double kMostVoxel = 20.0;                                           // as described
 // Scratch of one layer at work: cell, open flag, result.
 constexpr double kScratchBytes = 16 + 1 + 4 + 8;
 
@@ -90,14 +91,10 @@ class SpaceBuilder {
 
   Result<CrownSpace> build(Progress* progress) {
     if (auto checked = check(); !checked) return checked.error();
+    if (const double bytes = plan(); bytes > 0) return too_large(bytes);
     space_.voxel_m_ = options_.voxel_m;
     space_.layer_m_ = options_.layer_m;
     space_.claimants_.assign(trees_.begin(), trees_.end());
-    place();
-    choose_roots();
-    if (auto planned = plan_tiles(); !planned) return planned.error();
-    sample_ground();
-    if (auto fits = check_memory(); !fits) return fits.error();
     allocate();
     if (!divide(progress)) return cannot_finish("dividing the space was cancelled");
     hang_below_bases();
@@ -115,6 +112,17 @@ class SpaceBuilder {
       if (const std::string why = unusable(t); !why.empty())
         return Error{fmt::format("crown space: tree {} cannot take part, {}", t.id, why)};
     return {};
+  }
+
+  // Where trees stand and which tiles they need. Returns 0, or the bytes that it would take when they are too many.
+  double plan() {
+    place();
+    choose_roots();
+    if (const double bytes = plan_tiles(); bytes > byte_limit()) return bytes;
+    if (const double bytes = needed_bytes(); bytes > byte_limit()) return bytes;  // not yet with what lies below bases
+    sample_ground();
+    if (const double bytes = needed_bytes(); bytes > byte_limit()) return bytes;
+    return 0;
   }
 
   void place() {
@@ -182,10 +190,10 @@ class SpaceBuilder {
     }
   }
 
-  // Tiles that some tree reaches, with the layers of the trees that reach them.
-  Result<void> plan_tiles() {
+  // Tiles that some tree reaches, with the layers of the trees that reach them. Returns the bytes of their voxels,
+  // which is a lower bound when they are too many.
+  double plan_tiles() {
     std::unordered_map<std::uint64_t, std::size_t> index;
-    const double most = byte_limit() / (static_cast<double>(kTileColumns) * sizeof(std::int32_t));
     const auto reached = [&](IVec2 tile, const Placed& p) {
       const auto [at, added] = index.emplace(packed(tile), plots_.size());
       if (added) plots_.emplace_back().tile = tile;
@@ -202,9 +210,11 @@ class SpaceBuilder {
       };
       const IVec2 from = tile_of({clipped(p.east - p.reach, 0), clipped(p.north - p.reach, 1)});
       const IVec2 to = tile_of({clipped(p.east + p.reach, 0), clipped(p.north + p.reach, 1)});
-      const double wide = to.x - from.x + 1.0, high = to.y - from.y + 1.0;
-      if (wide * high > 2.0 * most || static_cast<double>(plots_.size()) > most)
-        return too_large(std::max(wide * high, static_cast<double>(plots_.size())) * kTileColumns * (p.top - p.base));
+      const double tile_bytes = kTileColumns * voxel_bytes();
+      const double box = (to.x - from.x + 1.0) * (to.y - from.y + 1.0) * (p.top - p.base) * tile_bytes;
+      const double held = static_cast<double>(plots_.size()) * tile_bytes;
+      // A disc fills more than half of its box but for the rounding to tiles.
+      if (std::max(0.5 * box, held) > byte_limit()) return std::max(0.5 * box, held);
       for (std::int32_t n = from.y; n <= to.y; ++n)
         for (std::int32_t e = from.x; e <= to.x; ++e) {
           const double x = p.east - std::clamp(p.east, e * 64.0, e * 64.0 + 64.0);
@@ -225,7 +235,7 @@ class SpaceBuilder {
       p.west = beside(p.tile + IVec2{-1, 0}), p.east = beside(p.tile + IVec2{1, 0});
       p.south = beside(p.tile + IVec2{0, -1}), p.north = beside(p.tile + IVec2{0, 1});
     }
-    return {};
+    return 0;
   }
 
   // A voxel exists when a part of it lies above the ground at its column's centre.
@@ -248,25 +258,31 @@ class SpaceBuilder {
   }
 
   double byte_limit() const { return static_cast<double>(options_.memory_gb) * 1e9; }
+  double voxel_bytes() const { return options_.keep_ticks ? 12.0 : 4.0; }
 
-  Error too_large(double voxels) const {
-    const double each = options_.keep_ticks ? 12.0 : 4.0, bytes = voxels * each;
-    const double edge = rounded_up(static_cast<double>(options_.voxel_m) * std::sqrt(1.1 * bytes / byte_limit()));
-    return {
-        fmt::format("crown space: {} trees with voxel_m = {} and layer_m = {} need {:.3g} voxels or more, {:.1f} GB, "
-                    "but memory_gb = {}; voxel_m = {:.4g} would fit",
-                    trees_.size(), options_.voxel_m, options_.layer_m, voxels, bytes / 1e9, options_.memory_gb, edge)};
-  }
-
-  Result<void> check_memory() const {
+  // Voxels, and a layer at work on every core.
+  double needed_bytes() const {
     double voxels = 0;
     for (const Plot& p : plots_) voxels += static_cast<double>(p.top - p.bottom) * kTileColumns;
     const double busy = std::max(1u, std::thread::hardware_concurrency());
-    const double scratch = busy * static_cast<double>(plots_.size()) * kTileColumns * kScratchBytes;
-    const double each = options_.keep_ticks ? 12.0 : 4.0;
-    if (voxels * each > byte_limit()) return too_large(voxels);
-    if (voxels * each + scratch > 2.0 * byte_limit()) return too_large(voxels + 0.5 * scratch / each);
-    return {};
+    return voxels * voxel_bytes() + busy * static_cast<double>(plots_.size()) * kTileColumns * kScratchBytes;
+  }
+
+  // Tries larger voxels until one fits.
+  Error too_large(double bytes) const {
+    SpaceOptions tried = options_;
+    std::string advice = "no voxel_m would fit: raise layer_m or limit the reach";
+    for (double grow = std::sqrt(bytes / byte_limit()); grow * static_cast<double>(options_.voxel_m) <= kMostVoxel;
+         grow *= 1.1) {
+      tried.voxel_m = static_cast<float>(rounded_up(grow * static_cast<double>(options_.voxel_m)));
+      if (SpaceBuilder(trees_, terrain_, tried).plan() > 0) continue;
+      advice = fmt::format("voxel_m = {} would fit", tried.voxel_m);
+      break;
+    }
+    return {
+        fmt::format("crown space: {} trees with voxel_m = {} and layer_m = {} need at least {:.2g} GB, but memory_gb = "
+                    "{}; {}",
+                    trees_.size(), options_.voxel_m, options_.layer_m, bytes / 1e9, options_.memory_gb, advice)};
   }
 
   void allocate() {

@@ -20,6 +20,9 @@ constexpr double kLeastSlowness = 0x1p10, kMostSlowness = 0x1p46;
 // Units of the queue in the time that the fastest front takes for a column: a few entries each.
 constexpr int kUnitBits = 8;
 
+// Delay in columns from which a cell is said to lie in a shadow.
+constexpr double kShadow = 1.0;
+
 // A cell's state: settled by front f (f >= 0), closed, free, or taken for now by front f (encoded -2 - f).
 constexpr std::int32_t kClosed = std::numeric_limits<std::int32_t>::max();
 constexpr std::int32_t kOpen = -1;
@@ -83,8 +86,8 @@ class Layer {
     const double straight = std::max(0.0, std::sqrt(x * x + y * y) - front.trunk) * front.slowness;
     Cell& cell = cells_[front.root];
     assert(cell.state < 0 || cell.state == kClosed);  // one root a cell
-    cell.tick = static_cast<std::uint64_t>(straight + 0.5);
-    cell.delay = static_cast<float>(static_cast<double>(cell.tick) - straight);
+    cell.tick = whole(straight);
+    cell.delay = 0.0f;
     cell.state = f;
     queue_.push(cell.tick, front.root);
   }
@@ -107,27 +110,40 @@ class Layer {
     const double x = column.x + 0.5 - front.east, y = column.y + 0.5 - front.north;
     const double distance_squared = x * x + y * y;
     if (distance_squared > front.reach_squared) return;
-    const double distance = std::sqrt(distance_squared);
+    const double distance = std::sqrt(distance_squared), slowness = front.slowness;
+    const double straight = std::max(0.0, distance - front.trunk) * slowness;
 
-    const double slowness = front.slowness, delay = static_cast<double>(settled.delay);
-    double t = static_cast<double>(settled.tick), straight = 0;
+    // Nothing is earlier than the straight way.
+    Cell& cell = cells_[to];
+    if (cell.state == -2 - f && cell.tick <= whole(straight)) return;
+
+    double t = static_cast<double>(settled.tick);
     if (distance > front.trunk) {
-      straight = (distance - front.trunk) * slowness;
+      const double delay = static_cast<double>(settled.delay);
       const double ahead = step.x != 0 ? step.x * x : step.y * y, aside = step.x != 0 ? y : x;
-      // In the base's own row or column no cell lies between it and the axis to take a difference with: the ray goes
-      // on.
-      t = ahead > 0.5 && std::fabs(aside) < 1.0 ? straight + delay : t + slowness;
-      const Sector sector{slowness, straight + delay - ahead * (slowness / distance)};
-      const double slope_aside = aside * (slowness / distance);
-      if (low.state == f && low.tick < settled.tick)
-        t = std::min(t, sector.time(slope_aside + delay - static_cast<double>(low.delay), low.tick));
-      if (high.state == f && high.tick < settled.tick)
-        t = std::min(t, sector.time(-slope_aside + delay - static_cast<double>(high.delay), high.tick));
+      const Cell& homeward = aside > 0.0 ? low : high;
+      const bool between = ahead >= std::fabs(aside) && earlier(homeward, settled);  // the ray runs between them
+      t += slowness;
+      if (ahead > 0.5 && std::fabs(aside) < 1.0) {
+        // In the base's own row or column no cell lies on the other side of the ray: it goes on.
+        t = straight + delay;
+      } else if (between && settled.delay == 0.0f && homeward.delay == 0.0f) {
+        t = straight;  // what the equation below gives
+      } else {
+        const Sector sector{slowness, straight + delay - ahead * (slowness / distance)};
+        const double slope_aside = aside * (slowness / distance);
+        if (earlier(low, settled))
+          t = std::min(t, sector.time(slope_aside + delay - static_cast<double>(low.delay), low.tick));
+        if (earlier(high, settled))
+          t = std::min(t, sector.time(-slope_aside + delay - static_cast<double>(high.delay), high.tick));
+        // At a border the ray may be free though not both cells beside it are the tree's.
+        if (ahead > 0.0 && !between && whole(t) > whole(straight) && sees_base(front, settled, to, column, x, y))
+          t = straight;
+      }
     }
 
-    Cell& cell = cells_[to];
-    const std::uint64_t tick = std::max(settled.tick + 1, static_cast<std::uint64_t>(t + 0.5));
-    const float new_delay = static_cast<float>(static_cast<double>(tick) - straight);
+    const std::uint64_t tick = std::max(settled.tick + 1, whole(std::max(t, straight)));
+    const float new_delay = delay_of(tick, straight);
     if (cell.state != kOpen) {
       if (tick > cell.tick) return;
       if (tick == cell.tick) {
@@ -139,6 +155,54 @@ class Layer {
     }
     cell = {tick, new_delay, -2 - f};
     queue_.push(tick, to);
+  }
+
+  // Free ways and the trunk have none, so that rounding does not travel outward.
+  static float delay_of(std::uint64_t tick, double straight) {
+    return straight == 0.0 || tick == whole(straight) ? 0.0f : static_cast<float>(static_cast<double>(tick) - straight);
+  }
+  static std::uint64_t whole(double t) { return static_cast<std::uint64_t>(t + 0.5); }
+  static bool earlier(const Cell& cell, const Cell& settled) {
+    return cell.state == settled.state && cell.tick < settled.tick;
+  }
+
+  // Walks the ray from a cell to its base, a row (or column) of cells at a time: in each, one of the two cells that the
+  // ray passes between must be the tree's and settled before, or `settled` itself.
+  bool sees_base(const Front& front, const Cell& settled, std::uint32_t from, IVec2 column, double x, double y) const {
+    const bool by_columns = std::fabs(x) >= std::fabs(y);
+    const double across = by_columns ? x : y;
+    const double slope = (by_columns ? y : x) / across;  // of the ray, aside a step ahead
+    const double base_aside = by_columns ? front.north : front.east;
+    const std::int32_t back = across > 0.0 ? -1 : 1;
+    std::int32_t row = by_columns ? column.y : column.x;
+    std::uint32_t cell = from;
+    for (double left = across + back; left * across > 0.0; left += back) {
+      const auto lower = static_cast<std::int32_t>(std::floor(base_aside + slope * left - 0.5));
+      cell = by_columns ? (back < 0 ? west_of(cell) : east_of(cell)) : (back < 0 ? south_of(cell) : north_of(cell));
+      // The nearer one of the two rows first.
+      const std::int32_t near = row <= lower ? lower : lower + 1, far = near == lower ? lower + 1 : lower;
+      std::uint32_t beside = aside_of(cell, near - row, by_columns);
+      row = near;
+      if (!seen(beside, settled, front.slowness)) {
+        beside = aside_of(beside, far - near, by_columns);
+        row = far;
+        if (!seen(beside, settled, front.slowness)) return false;
+      }
+      cell = beside;
+    }
+    return true;
+  }
+  bool seen(std::uint32_t index, const Cell& settled, double slowness) const {
+    const Cell& cell = cells_[index];
+    const bool before = &cell == &settled || earlier(cell, settled);
+    // A cell that is itself in a shadow ends the walk early.
+    return before && static_cast<double>(cell.delay) < kShadow * slowness;
+  }
+  // The cell that many rows north (or columns east).
+  std::uint32_t aside_of(std::uint32_t cell, std::int32_t steps, bool north_south) const {
+    for (; steps > 0 && cell != beyond_; --steps) cell = north_south ? north_of(cell) : east_of(cell);
+    for (; steps < 0 && cell != beyond_; ++steps) cell = north_south ? south_of(cell) : west_of(cell);
+    return cell;
   }
 
   // The eighth of the directions between the step from the settled cell and the diagonal from the cell beside it.

@@ -12,6 +12,9 @@
 //           the straight way is free, and first order behind corners. A way more oblique than the diagonal takes
 //           t_d + sqrt(2) slowness; n alone t_n + slowness, or n's delay if in one row or column with the base; within
 //           the trunk's radius t_n + 1. The least counts.
+// Decision  where only one of the cells beside the ray is the tree's, at a border, the ray itself is walked: it is free
+//           when in each row one of the two cells that it passes between is the tree's. So equal trees divide a layer
+//           exactly as Voronoi, also far along the border of two close neighbours
 // Decision  the division is defined as a solution, not as a run. t is a whole number of ticks, rounded once, computed
 //           from the ticks of neighbours of the same tree, and at least 1 more than each that it uses; a voxel takes
 //           the lexicographically smallest (t, key). As each value rests on strictly smaller ones there is one

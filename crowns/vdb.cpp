@@ -37,6 +37,8 @@ Grid::Ptr new_grid() {
 
 openvdb::Coord coord(IVec3 voxel) { return {voxel.x, voxel.y, -1 - voxel.z}; }
 
+std::string metadata_key(std::int32_t id) { return fmt::format("tree {}", id); }
+
 // One leaf of a tile: 8 x 8 columns from (i0, j0) inside the tile, 8 layers from `layer0`. Null when all are free.
 Leaf* fill_leaf(const CrownSpace& space, const SpaceTile& tile, std::int32_t i0, std::int32_t j0, std::int32_t layer0) {
   Leaf* leaf = nullptr;
@@ -92,6 +94,16 @@ std::int32_t TreeGrid::id(IVec3 voxel) const { return impl_->grid->tree().getVal
 float TreeGrid::voxel_m() const { return static_cast<float>(impl_->grid->voxelSize().x()); }
 float TreeGrid::layer_m() const { return static_cast<float>(impl_->grid->voxelSize().y()); }
 
+Vec3 TreeGrid::world_centre(IVec3 voxel) const {
+  const openvdb::Vec3d p = impl_->grid->indexToWorld(coord(voxel));
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+std::string TreeGrid::name(std::int32_t id) const {
+  const auto held = impl_->grid->getMetadata<openvdb::StringMetadata>(metadata_key(id));
+  return held ? held->value() : std::string();
+}
+
 void TreeGrid::for_each(const std::function<void(IVec3, std::int32_t)>& visit) const {
   for (auto leaf = impl_->grid->tree().cbeginLeaf(); leaf; ++leaf)
     for (auto value = leaf->cbeginValueOn(); value; ++value) {
@@ -106,7 +118,7 @@ TreeGrid build_grid(const CrownSpace& space) {
   grid->setGridClass(openvdb::GRID_UNKNOWN);
   const double voxel = static_cast<double>(space.voxel_m()), layer = static_cast<double>(space.layer_m());
   auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-  transform->preScale(openvdb::Vec3d(voxel, layer, voxel));
+  transform->postScale(openvdb::Vec3d(voxel, layer, voxel));
   transform->postTranslate(openvdb::Vec3d(0.5 * voxel, 0.5 * layer, 0.5 * voxel));
   grid->setTransform(transform);
 
@@ -147,14 +159,13 @@ Result<void> write_vdb(const TreeGrid& grid, const std::filesystem::path& path,
   named->setTree(std::const_pointer_cast<Grid::TreeType>(grid.impl().grid->treePtr()));
   named->setTransform(grid.impl().grid->transform().copy());
   named->setName(kGridName);
-  for (const auto& [id, name] : names) named->insertMeta(fmt::format("tree {}", id), openvdb::StringMetadata(name));
+  for (const auto& [id, name] : names) named->insertMeta(metadata_key(id), openvdb::StringMetadata(name));
 
   RemoveUnlessKept part{folder / ("." + path.filename().string() + ".part")};
   try {
     std::ofstream out(part.path, std::ios::binary | std::ios::trunc);
     if (!out) return Error{fmt::format("cannot write {}: {}", path.string(), std::strerror(errno))};
     StreamArchive().write_to(out, named);
-    errno = 0;
     out.close();
     if (!out) return cannot_write(path, "the disk is full or failed");
   } catch (const std::exception& e) {

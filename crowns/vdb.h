@@ -33,6 +33,10 @@ class TreeGrid {
   std::int32_t id(IVec3 voxel) const;
   float voxel_m() const;
   float layer_m() const;
+  /// World position of a voxel's centre by the grid's own transform.
+  Vec3 world_centre(IVec3 voxel) const;
+  /// The name that the grid's metadata holds for a tree; empty when none.
+  std::string name(std::int32_t id) const;
   /// Calls visit(voxel, id) for every active voxel, in no order that means anything.
   void for_each(const std::function<void(IVec3, std::int32_t)>& visit) const;
   const Impl& impl() const { return *impl_; }

@@ -126,6 +126,36 @@ TEST(Propagation, TiesGoToTheLowestKey) {
   }
 }
 
+TEST(Propagation, TheOrderOfBlocksDoesNotMatter) {
+  // Blocks number the cells, and cells of one tick leave the queue by number.
+  const std::int32_t blocks = 3;
+  const std::int32_t shuffled[] = {4, 0, 8, 3, 7, 1, 6, 2, 5};
+  const LayerCells cells = open_layer(blocks);
+  LayerCells other = cells;
+  for (std::size_t b = 0; b < 9; ++b) {
+    const auto moved = [&](std::int32_t n) { return n < 0 ? n : shuffled[n]; };
+    const LayerCells::Block& from = cells.blocks[b];
+    other.blocks[static_cast<std::size_t>(shuffled[b])] = {from.low, moved(from.west), moved(from.east),
+                                                           moved(from.south), moved(from.north)};
+  }
+  std::vector<Front> fronts, others;
+  for (std::int32_t t = 0; t < 60; ++t) {
+    // Bases on cell centres and two sizes only, so that ties abound.
+    RandomStream draw(8, static_cast<std::uint64_t>(t), Purpose::planting);
+    const IVec2 column(draw.below(192), draw.below(192));
+    fronts.push_back(front_at(DVec2(column) + 0.5, blocks, t, 0.5, t % 2 ? 0x1p30 : 0x1p31));
+    others.push_back(fronts.back());
+    const std::uint32_t root = fronts.back().root;
+    others.back().root = static_cast<std::uint32_t>(shuffled[root / 4096]) * 4096 + root % 4096;
+  }
+  const auto expected = propagate(fronts, cells), got = propagate(others, other);
+  for (std::size_t c = 0; c < expected.front.size(); ++c) {
+    const std::size_t at = static_cast<std::size_t>(shuffled[c / 4096]) * 4096 + c % 4096;
+    ASSERT_EQ(got.front[at], expected.front[c]);
+    ASSERT_EQ(got.ticks[at], expected.ticks[c]);
+  }
+}
+
 TEST(Propagation, TheFastestAndTheSlowestTreeFitTheTicks) {
   for (float area : {1e-3f, 0.03f, 1.0f, 2000.0f, 1e5f})
     for (float exponent : {0.0f, 0.5f, 1.0f, 2.0f})
