@@ -10,8 +10,6 @@
 namespace bosquet::growth {
 namespace {
 
-constexpr int kIdleSeasons = 3;  ///< seasons without a new internode after which growth ends
-
 /// What every living internode got in the last season; fallen wood has its own already.
 void record_light_and_vigor(Tree& tree) {
   Skeleton& wood = tree.wood;
@@ -54,28 +52,7 @@ Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* wo
   thread_local Tree tree;
   plant(tree, input);
 
-  int idle = 0;
-  for (; tree.season < tree.parameters->max_seasons && idle < kIdleSeasons; ++tree.season) {
-    if (progress && progress->cancelled()) break;
-    update_habits(tree);
-    sense_light(tree);
-    compete_for_space(tree);
-    share_vigor(tree);
-    const bool grows = choose_growing(tree);
-    const std::size_t before = tree.wood.size();
-    bool done = false;
-    if (grows) {
-      deflect(tree);
-      done = extend(tree);
-    }
-    shed(tree);
-    bury_dead_buds(tree);
-    idle = tree.wood.size() > before ? 0 : idle + 1;
-    if (done) {
-      ++tree.season;
-      break;
-    }
-  }
+  while (!tree.finished && !(progress && progress->cancelled())) grow_season(tree);
   record_light_and_vigor(tree);
   tree.wood.seasons = tree.season;
   if (work) *work = tree.work;

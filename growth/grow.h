@@ -30,7 +30,7 @@ struct GrowthInput {
   const crowns::CrownRegion* region = nullptr;  ///< where markers may stand; null: anywhere above y = 0
   Vec3 asymmetry{0.0f};                         ///< V, horizontal
   const Transmittance* light = nullptr;         ///< of the other trees' canopy; null: full light
-  float clear_stem_m = 0.0f;                    ///< no marker stands below
+  float clear_stem_m = 0.0f;                    ///< below it no branch grows
   float detail = 1.0f;                          ///< 0.25 - 4
   std::uint64_t seed = 0;                       ///< of the document
   std::uint64_t key = 0;                        ///< of the tree

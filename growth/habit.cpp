@@ -1,7 +1,5 @@
 #include "growth/habit.h"
 
-#include <algorithm>
-
 #include "core/scalar.h"
 
 namespace bosquet::growth {
@@ -43,7 +41,7 @@ Habit prepare(const Numbers& n, float detail) {
   const SinCos deflection = sin_cos(radians(n.deflection_deg));
   h.deflection_cos = deflection.cos, h.deflection_sin = n.deflection_deg > 0.0f ? deflection.sin : 0.0f;
 
-  h.max_shoot = std::max(2, static_cast<int>(static_cast<float>(n.max_shoot) * detail + 0.5f));
+  h.max_shoot = n.max_shoot;
   h.lambda = n.lambda, h.kappa = n.kappa, h.acrotony = n.acrotony;
   h.s_v = n.s_v, h.s_p = n.s_p, h.e_v = n.e_v;
   h.neutral_ellipse = n.s_v == 1.0f && n.s_p == 1.0f && n.e_v == 0.0f;

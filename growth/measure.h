@@ -25,8 +25,7 @@ struct Measures {
   int internodes = 0;          ///< living
 };
 
-/// Measures at the end of `season` (the last by default). Radii of an earlier season are solved with `exponent` when it
-/// is given, else the trunk diameter is that of the finished tree.
+/// Measures at the end of `season` (the last by default).
 Measures measure(const Skeleton& skeleton, int season = -1);
 
 }  // namespace bosquet::growth

@@ -12,8 +12,8 @@
 namespace bosquet::growth {
 namespace {
 
-bool may_stand(const Tree& tree, const Vec3& p) {
-  if (p.y <= tree.ground_m) return false;
+bool may_stand(const Tree& tree, const Vec3& p, float ground_m) {
+  if (p.y <= ground_m) return false;
   if (tree.input->region && !tree.input->region->contains(p)) return false;
   return !tree.occupancy.occupied(p);
 }
@@ -34,13 +34,14 @@ void drop_and_claim(Tree& tree) {
         tree.parameters->planar
             ? Basis{normalised_or({c.direction.y, -c.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
             : basis_around(c.direction);
+    const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
     std::uint64_t bits = 0;
     for (int m = 0; m < markers; ++m, bits >>= 12) {
       if (m % 5 == 0) bits = tree.random.bits();
       const Vec3 offset = tree.occupied_m * tree.samples.at(static_cast<std::uint32_t>(bits), c.direction, basis);
       const Vec3 marker = c.at + offset;
       ++tested;
-      if (!may_stand(tree, marker)) continue;
+      if (!may_stand(tree, marker, ground)) continue;
       const float distance = std::sqrt(glm::dot(offset, offset));
       const std::int32_t winner = tree.competitors.nearest(marker, distance, c.bud);
       const auto w = static_cast<std::size_t>(winner);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kLeastInternodes = 40.0f;  ///< h_max / l is kept at least this
 constexpr float kShadowCell = 2.0f;        ///< in l at detail 1
+constexpr int kIdleSeasons = 3;            ///< seasons without a new internode after which growth ends
 
 Box3 expected_room(const GrowthInput& input, float margin_m) {
   Box3 room;
@@ -83,11 +84,11 @@ void plant(Tree& tree, const GrowthInput& input) {
   tree.occupied_m = p.occupancy_radius * length;
   tree.reach_m = (p.occupancy_radius + p.perception_depth) * length;
   tree.cos_perception = sin_cos(radians(0.5f * p.perception_angle_deg)).cos;
-  tree.ground_m = std::max(0.0f, input.clear_stem_m);
   tree.leans = input.asymmetry != Vec3{0.0f};
   tree.phase = -2;
   tree.random = RandomStream(input.seed, input.key, Purpose::growth);
-  tree.season = 0, tree.height_m = 0.0f, tree.axes = 0;
+  tree.season = 0, tree.idle_seasons = 0, tree.finished = false;
+  tree.height_m = 0.0f, tree.axes = 0;
   tree.work = {};
 
   Skeleton& wood = tree.wood;
@@ -120,6 +121,25 @@ void update_habits(Tree& tree) {
   if (phase == tree.phase) return;
   tree.phase = phase;
   tree.habits = habits_at(*tree.parameters, share, tree.input->detail);
+}
+
+void grow_season(Tree& tree) {
+  assert(!tree.finished);
+  const std::size_t before = tree.wood.size();
+  update_habits(tree);
+  sense_light(tree);
+  compete_for_space(tree);
+  share_vigor(tree);
+  bool tall = false;
+  if (choose_growing(tree)) {
+    deflect(tree);
+    tall = extend(tree);
+  }
+  shed(tree);
+  bury_dead_buds(tree);
+  tree.idle_seasons = tree.wood.size() > before ? 0 : tree.idle_seasons + 1;
+  ++tree.season;
+  tree.finished = tall || tree.idle_seasons >= kIdleSeasons || tree.season >= tree.parameters->max_seasons;
 }
 
 }  // namespace bosquet::growth

@@ -77,7 +77,6 @@ struct Tree {
   float occupied_m = 0;      ///< r
   float reach_m = 0;         ///< r + d
   float cos_perception = 0;  ///< of zeta / 2
-  float ground_m = 0;        ///< no marker below
   bool leans = false;        ///< V is not zero
   Habits habits{};
   int phase = -2;
@@ -85,6 +84,8 @@ struct Tree {
 
   // How far it is.
   int season = 0;
+  int idle_seasons = 0;  ///< in a row, without a new internode
+  bool finished = false;
   float height_m = 0;
   std::uint32_t axes = 0;
   Skeleton wood;
@@ -118,6 +119,9 @@ struct Tree {
 
 /// Starts a tree: one terminal bud for each stem.
 void plant(Tree& tree, const GrowthInput& input);
+
+/// One season, as below in this order. Not after the tree is finished.
+void grow_season(Tree& tree);
 
 /// Reads the numbers in force at the tree's height.
 void update_habits(Tree& tree);

@@ -1,0 +1,332 @@
+#include "growth/grow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/parallel.h"
+#include "core/scalar.h"
+#include "growth/digest.h"
+#include "growth/measure.h"
+#include "growth/tree.h"
+#include "sample_trees.h"
+
+namespace bosquet::growth {
+namespace {
+
+/// A region whose voxels are claimed where `inside` says so, of 0.25 m voxels.
+template <class Inside>
+crowns::CrownRegion region_where(float half_m, float height_m, const Inside& inside) {
+  crowns::CrownRegion r;
+  r.voxel_m = r.layer_m = 0.25f;
+  r.low = {-half_m, 0.0f, -half_m};
+  r.cells = IVec3(static_cast<int>(2 * half_m / 0.25f), static_cast<int>(height_m / 0.25f),
+                  static_cast<int>(2 * half_m / 0.25f));
+  r.bits.assign((r.index({0, r.cells.y, 0}) + 63) / 64, 0);
+  for (int y = 0; y < r.cells.y; ++y) {
+    for (int z = 0; z < r.cells.z; ++z) {
+      for (int x = 0; x < r.cells.x; ++x) {
+        if (inside(r.low + 0.25f * (Vec3(x, y, z) + 0.5f))) r.claim({x, y, z});
+      }
+    }
+  }
+  return r;
+}
+
+TEST(Grow, AParentPrecedesItsChildrenAndIsBornNoLater) {
+  Parameters p = sample_parameters();
+  p.shedding_threshold = 0.15f;
+  const Skeleton s = grow(sample_input(p, 1));
+  ASSERT_GT(s.size(), 500u);
+  bool fell = false;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    ASSERT_LT(s.parent[i], static_cast<std::int32_t>(i));
+    if (s.parent[i] < 0) continue;
+    const auto parent = static_cast<std::size_t>(s.parent[i]);
+    EXPECT_LE(s.born[parent], s.born[i]);
+    EXPECT_GE(s.shed[parent], s.shed[i]) << "what stands on fallen wood has fallen";
+    EXPECT_EQ(s.order[i], s.order[parent] + (s.axis[i] == s.axis[parent] ? 0 : 1));
+    fell = fell || !s.alive(i);
+  }
+  EXPECT_TRUE(fell);
+}
+
+TEST(Grow, EveryInternodeHasTheTreesLength) {
+  Parameters p = sample_parameters();
+  p.deflection_angle_deg = 20.0f;  // turning wood must not stretch it
+  const Skeleton s = grow(sample_input(p, 1));
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_NEAR(glm::length(s.distal[i] - s.proximal(i)), s.internode_length_m, 1e-5f);
+  }
+}
+
+TEST(Grow, ATreeStopsWithinAnInternodeOfItsHeight) {
+  const Parameters p = sample_parameters();
+  for (const float height : {3.0f, 7.5f, 12.0f}) {
+    const Skeleton s = grow(sample_input(p, 1, height));
+    EXPECT_GE(measure(s).height_m, height);
+    EXPECT_LE(measure(s).height_m, height + s.internode_length_m);
+  }
+}
+
+TEST(Grow, ASmallTreeIsMadeOfSmallerInternodesAndTwigs) {
+  const Parameters p = sample_parameters();
+  const Skeleton s = grow(sample_input(p, 1, 2.0f));
+  EXPECT_FLOAT_EQ(s.internode_length_m, 0.05f);
+  EXPECT_FLOAT_EQ(s.tip_diameter_m, p.tip_diameter_m * 0.2f);
+}
+
+TEST(Grow, EqualInputsGiveEqualBitsForAnyNumberOfThreads) {
+  const Parameters p = sample_parameters();
+  constexpr std::size_t kTrees = 12;
+  const auto stand = [&](int threads) {
+    std::vector<std::uint64_t> digests(kTrees);
+    run_with_threads(threads, [&] {
+      parallel_for(kTrees, [&](std::size_t i) {
+        GrowthInput input = sample_input(p, 9, 6.0f + static_cast<float>(i % 3));
+        input.key = i;
+        digests[i] = digest(grow(input));
+      });
+    });
+    return digests;
+  };
+  const std::vector<std::uint64_t> alone = stand(1);
+  EXPECT_EQ(std::set<std::uint64_t>(alone.begin(), alone.end()).size(), kTrees) << "trees differ from each other";
+  for (const int threads : {1, 2, 3, 8}) EXPECT_EQ(stand(threads), alone) << threads << " threads";
+}
+
+TEST(Grow, ATreeDoesNotDependOnTheOneGrownBefore) {
+  const Parameters p = sample_parameters();
+  Parameters other = p;
+  other.occupancy_radius = 4.0f, other.perception_angle_deg = 90.0f, other.light_sensitivity = 2.5f;
+  const std::uint64_t first = digest(grow(sample_input(p, 5)));
+  grow(sample_input(other, 6, 15.0f));
+  EXPECT_EQ(digest(grow(sample_input(p, 5))), first);
+}
+
+TEST(Grow, TheHashSeesWhateverChangesTheTree) {
+  const Parameters p = sample_parameters();
+  std::set<std::uint64_t> hashes;
+  std::size_t inputs = 0;
+  const auto add = [&](const GrowthInput& input) { hashes.insert(hash(input)), ++inputs; };
+  GrowthInput input = sample_input(p, 5);
+  add(input);
+  input.seed = 6, add(input);
+  input.key = 7, add(input);
+  input.detail = 2.0f, add(input);
+  input.clear_stem_m = 1.0f, add(input);
+  input.asymmetry = {0.5f, 0.0f, 0.0f}, add(input);
+  const auto region = region_where(3.0f, 12.0f, [](const Vec3& v) { return v.x > 0.0f; });
+  input.region = &region, add(input);
+  Transmittance light;
+  light.cells = {1, 1, 1}, light.level = {3};
+  input.light = &light, add(input);
+  Parameters q = p;
+  input.parameters = &q;
+  q.tip_diameter_m = 0.01f, add(input);
+  q.orders.push_back({1, {}}), q.orders[0].change.straightness = 0.4f, add(input);
+  q.orders[0].change = {}, q.orders[0].change.space = 0.4f, add(input);
+  EXPECT_EQ(hashes.size(), inputs);
+}
+
+TEST(Grow, InternodesEndInTheirRegionOrJustOutside) {
+  const Parameters p = sample_parameters();
+  const auto inside = [](const Vec3& v) { return v.x * v.x + v.z * v.z < 2.0f * 2.0f; };
+  const auto region = region_where(3.0f, 13.0f, inside);
+  GrowthInput input = sample_input(p, 2);
+  input.region = &region;
+  const Skeleton s = grow(input);
+  ASSERT_GT(s.size(), 300u);
+  int outside = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    outside += region.contains(s.distal[i]) ? 0 : 1;
+    const float across = std::sqrt(s.distal[i].x * s.distal[i].x + s.distal[i].z * s.distal[i].z);
+    EXPECT_LT(across, 2.0f + 2.0f * s.internode_length_m + 0.36f) << "two internodes and half a voxel's diagonal";
+  }
+  RecordProperty("outside_per_mille", static_cast<int>(1000 * outside / static_cast<int>(s.size())));
+  EXPECT_LE(outside, static_cast<int>(s.size()) / 100);
+}
+
+TEST(Grow, WithoutTheSpaceOnOneSideTheCrownMovesToTheOther) {
+  const Parameters p = sample_parameters();
+  const auto half = region_where(8.0f, 13.0f, [](const Vec3& v) { return v.x > -0.5f; });
+  const auto whole = region_where(8.0f, 13.0f, [](const Vec3&) { return true; });
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    input.region = &half;
+    const Measures m = measure(grow(input));
+    EXPECT_GT(m.crown_centroid.x, 0.15f * m.crown_diameter_m);
+    input.region = &whole;
+    EXPECT_LT(std::abs(measure(grow(input)).crown_centroid.x), 0.1f * m.crown_diameter_m);
+  }
+}
+
+TEST(Grow, NothingGrowsUndergroundNorOnAClearStem) {
+  Parameters p = sample_parameters();
+  p.set_point_angle_deg = 180.0f, p.max_shoot_length = 6;
+  GrowthInput input = sample_input(p, 2);
+  for (const Vec3& end : grow(input).distal) EXPECT_GE(end.y, 0.0f);
+  p = sample_parameters();
+  input.clear_stem_m = 3.0f;
+  const Skeleton s = grow(input);
+  EXPECT_GE(measure(s).height_m, 12.0f);
+  for (std::size_t i = 0; i < s.size(); ++i) EXPECT_TRUE(s.order[i] == 0 || s.distal[i].y >= 3.0f);
+}
+
+TEST(Grow, InTheShadeOfOthersTheCrownBaseIsHigher) {
+  Parameters p = sample_parameters();
+  p.shedding_threshold = 0.1f, p.light_sensitivity = 2.0f;
+  // A closed stand: exp(-0.5 LAI (1 - y/h)) with a leaf area index of 6.
+  Transmittance stand;
+  stand.low = {-20.0f, 0.0f, -20.0f}, stand.cells = {40, 14, 40};
+  for (int y = 0; y < 14; ++y) {
+    const float open = std::exp(-3.0f * std::max(0.0f, 1.0f - (static_cast<float>(y) + 0.5f) / 12.0f));
+    stand.level.insert(stand.level.end(), 1600,
+                       static_cast<std::uint8_t>(std::clamp(open * 16.0f - 1.0f, 0.0f, 15.0f)));
+  }
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    const Measures open = measure(grow(input));
+    input.light = &stand;
+    const Measures closed = measure(grow(input));
+    EXPECT_GT(closed.crown_base_m, 1.5f * open.crown_base_m);
+    EXPECT_LT(closed.trunk_diameter_m, open.trunk_diameter_m);
+  }
+}
+
+TEST(Grow, DetailChangesTheNumberOfInternodesNotTheTree) {
+  const Parameters p = sample_parameters();
+  std::array<Measures, 3> mean{};
+  const std::array<float, 3> details{0.5f, 1.0f, 2.0f};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      GrowthInput input = sample_input(p, seed, 14.0f);
+      input.detail = details[k];
+      const Measures m = measure(grow(input));
+      mean[k].height_m += 0.25f * m.height_m, mean[k].crown_diameter_m += 0.25f * m.crown_diameter_m;
+      mean[k].internodes += m.internodes / 4;
+    }
+  }
+  EXPECT_GT(mean[1].internodes, 3 * mean[0].internodes / 2);
+  EXPECT_GT(mean[2].internodes, 3 * mean[1].internodes / 2);
+  for (const std::size_t k : {0u, 2u}) {
+    EXPECT_NEAR(mean[k].height_m / mean[1].height_m, 1.0f, 0.05f);
+    EXPECT_NEAR(mean[k].crown_diameter_m / mean[1].crown_diameter_m, 1.0f, 0.15f);
+  }
+}
+
+TEST(Grow, APlanarTreeStaysInItsPlane) {
+  Parameters p = sample_parameters();
+  p.planar = true;
+  const Skeleton s = grow(sample_input(p, 2));
+  ASSERT_GT(s.size(), 50u);
+  float left = 0.0f, right = 0.0f;
+  for (const Vec3& end : s.distal) {
+    EXPECT_EQ(end.z, 0.0f);
+    left = std::min(left, end.x), right = std::max(right, end.x);
+  }
+  EXPECT_LT(left, -1.0f);
+  EXPECT_GT(right, 1.0f);
+}
+
+TEST(Grow, SeveralStemsRiseFromOneBase) {
+  Parameters p = sample_parameters();
+  p.stems = 5;
+  const Skeleton s = grow(sample_input(p, 2, 5.0f));
+  EXPECT_EQ(std::count(s.parent.begin(), s.parent.end(), -1), 5);
+}
+
+TEST(Grow, WhorlsStandAtShootEndsOnly) {
+  Parameters p = sample_parameters();
+  p.buds_at = BudsAt::shoot_end, p.whorl = 4, p.scattered = 0.0f, p.max_shoot_length = 5, p.apical_dominance = 0.54f;
+  const Skeleton s = grow(sample_input(p, 2));
+  int branches = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.parent[i] < 0 || s.axis[i] == s.axis[static_cast<std::size_t>(s.parent[i])]) continue;
+    // The continuation of the axis past the branch was born in a later season than the node below it.
+    const auto node = static_cast<std::size_t>(s.parent[i]);
+    for (std::size_t k = node + 1; k < s.size(); ++k) {
+      if (s.parent[k] == s.parent[i] && s.axis[k] == s.axis[node]) {
+        EXPECT_GT(s.born[k], s.born[node]);
+        ++branches;
+      }
+    }
+  }
+  EXPECT_GT(branches, 20);
+}
+
+TEST(Grow, ABoleHasNoBranches) {
+  Parameters p = sample_parameters();
+  p.bole = 0.25f;
+  const Skeleton s = grow(sample_input(p, 2));
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.order[i] > 0) {
+      EXPECT_TRUE(s.order[static_cast<std::size_t>(s.parent[i])] > 0 || s.proximal(i).y >= 3.0f);
+    }
+  }
+}
+
+TEST(Grow, ACancelledTreeEndsAtOnce) {
+  const Parameters p = sample_parameters();
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(grow(sample_input(p, 1), &progress).size(), 0u);
+}
+
+TEST(Grow, VigorLeavingAForkEqualsVigorArriving) {
+  const Parameters p = sample_parameters();
+  const GrowthInput input = sample_input(p, 1);
+  Tree tree;
+  plant(tree, input);
+  while (tree.season < 12) grow_season(tree);
+  sense_light(tree);
+  compete_for_space(tree);
+  share_vigor(tree);
+  const Internodes& in = tree.internodes;
+  std::vector<double> leaving(tree.wood.size(), 0.0);  // through the ways that stand on a node
+  for (const std::int32_t bud : tree.living) {
+    const auto b = static_cast<std::size_t>(bud);
+    if (tree.buds.node[b] >= 0) leaving[static_cast<std::size_t>(tree.buds.node[b])] += tree.buds.flow[b];
+  }
+  int forks = 0;
+  for (std::size_t i = tree.wood.size(); i-- > 0;) {
+    const double arriving = in.main_vigor[i] + in.lateral_rate[i] * in.lateral_signal[i];
+    if (in.main_signal[i] > 0.0f && in.lateral_signal[i] > 0.0f) ++forks;
+    EXPECT_NEAR(leaving[i], arriving, 1e-4 * arriving) << "internode " << i;
+    if (tree.wood.parent[i] >= 0) leaving[static_cast<std::size_t>(tree.wood.parent[i])] += arriving;
+  }
+  EXPECT_GT(forks, 50);
+}
+
+TEST(Grow, DeflectionAsWideAsBranchingMakesSymmetricForks) {
+  Parameters p = sample_parameters();
+  p.straightness = 1.0f, p.tropism = 0.0f, p.space = 0.0f;
+  p.branching_angle_deg = p.deflection_angle_deg = 40.0f;
+  std::vector<float> differences;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Skeleton s = grow(sample_input(p, seed));
+    for (std::size_t lateral = 0; lateral < s.size(); ++lateral) {
+      if (s.parent[lateral] < 0) continue;
+      const auto node = static_cast<std::size_t>(s.parent[lateral]);
+      if (s.axis[lateral] == s.axis[node]) continue;
+      for (std::size_t main = node + 1; main < s.size(); ++main) {
+        if (s.parent[main] != s.parent[lateral] || s.axis[main] != s.axis[node]) continue;
+        if (s.born[lateral] != s.born[main] + 1) continue;  // only last season's wood turns
+        const auto heading = [&](std::size_t i) { return glm::normalize(s.distal[i] - s.proximal(i)); };
+        const float turn = std::acos(std::clamp(glm::dot(heading(main), heading(node)), -1.0f, 1.0f));
+        const float branch = std::acos(std::clamp(glm::dot(heading(lateral), heading(node)), -1.0f, 1.0f));
+        differences.push_back(std::abs(degrees(turn - branch)));
+      }
+    }
+  }
+  ASSERT_GT(differences.size(), 30u);
+  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                   differences.end());
+  EXPECT_LE(differences[differences.size() / 2], 2.0f);
+}
+
+}  // namespace
+}  // namespace bosquet::growth
