@@ -19,7 +19,7 @@ constexpr float kFinestCell_m = 0.125f;  // a quarter of a trunk: finer fields o
 constexpr float kChosenCells = 1024.0f;  // along the longer side, unless a cell is asked for
 constexpr float kBucket_m = 2.0f;        // of the tree index: a few trees each in a dense stand
 constexpr float kMostBuckets = 1024.0f;  // along the longer side
-constexpr float kAnySlope_deg = 89.0f;  // from here on the slope is no limit
+constexpr float kAnySlope_deg = 89.0f;   // from here on the slope is no limit
 
 float steepness(Vec2 gradient) { return std::sqrt(gradient.x * gradient.x + gradient.y * gradient.y); }
 
@@ -227,12 +227,15 @@ Refusal Planting::refusal(const StandingTree& tree) const {
 
 std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
   const PlantingRules& rules = species_[species].rules;
-  // What can be told for the whole site at once is not asked of every cell.
+  // What can be told for the whole site at once is not asked of every cell; none means: all suit fully.
   const bool water = terrain_.water_level_m && heights_.low < *terrain_.water_level_m;
   const bool low = heights_.low<rules.min_altitude_m, high = heights_.high> rules.max_altitude_m;
   const float rise = steepest_allowed_[species];
   const bool steep = steepest_ > rise;
   const bool exclusions = !everywhere(terrain_.exclusion, 0), thinned = !everywhere(terrain_.density, 255);
+
+  const bool last_on_site = terrain::on_site(terrain_, (Vec2(cells_) - 0.5f) * cell_m_);
+  if (last_on_site && !water && !low && !high && !steep && !exclusions && !thinned) return {};
 
   const auto width = static_cast<std::size_t>(cells_.x);
   std::vector<std::uint8_t> suits(width * static_cast<std::size_t>(cells_.y), 255);

@@ -81,17 +81,15 @@ ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const st
   most_steps_ =
       std::min(static_cast<std::uint32_t>(log2(std::min(most, 0x1p20f)) * (1 << kLogBits) + 0.5f), kRange - 1);
   log2_.assign(blocks * kBlockCells, 0);
-  cover_.assign(blocks * kBlockCells, 1);
+  cover_.assign(blocks * kBlockCells, 0);
   suitability_.assign(blocks * kBlockCells, 255);
-  for (int j = 0; j < cells.y; ++j)
-    for (int i = 0; i < cells.x; ++i) {
-      const std::size_t n = place({i, j});
-      cover_[n] = 0;
-      suitability_[n] = suitability.empty()
-                            ? 255
-                            : suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) +
-                                          static_cast<std::size_t>(i)];
-    }
+  for (int j = 0; j < kBlock * blocks_.y; ++j)  // cells that only fill up the last blocks
+    for (int i = j < cells.y ? cells.x : 0; i < kBlock * blocks_.x; ++i) cover_[place({i, j})] = 1;
+  if (!suitability.empty())
+    for (int j = 0; j < cells.y; ++j)
+      for (int i = 0; i < cells.x; ++i)
+        suitability_[place({i, j})] =
+            suitability[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(i)];
   suits_wholly_.resize(blocks);
   for (std::size_t b = 0; b < blocks; ++b)
     suits_wholly_[b] = std::all_of(suitability_.begin() + static_cast<std::ptrdiff_t>(b * kBlockCells),
@@ -103,7 +101,14 @@ ProbabilityField::ProbabilityField(IVec2 cells, float cell_m, std::span<const st
     if (nodes.x == 1 && nodes.y == 1) break;
   }
   top_ = kBlockLevel + static_cast<int>(levels_.size()) - 1;
-  for (std::size_t b = 0; b < blocks; ++b) levels_[0].sums[b] = block_sum(b);
+  constexpr std::uint64_t kFresh = std::uint64_t{kBlockCells} << 20;  // of a block where nothing acts
+  for (int y = 0; y < blocks_.y; ++y)
+    for (int x = 0; x < blocks_.x; ++x) {
+      const std::size_t b =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_.x) + static_cast<std::size_t>(x);
+      const bool inner = kBlock * (x + 1) <= cells.x && kBlock * (y + 1) <= cells.y;
+      levels_[0].sums[b] = inner && suits_wholly_[b] ? Pair{kFresh, kFresh} : block_sum(b);
+    }
   sum_above({0, 0}, blocks_ - 1);
 }
 
@@ -127,15 +132,20 @@ std::uint64_t ProbabilityField::weight(IVec2 cell) const { return cell_weight(pl
 std::uint8_t ProbabilityField::suitability(IVec2 cell) const { return suitability_[place(cell)]; }
 
 ProbabilityField::Pair ProbabilityField::block_sum(std::size_t block) const {
-  const std::size_t first = block * kBlockCells;
   const std::uint32_t* fraction = fractions().data();
+  const std::uint64_t* logs = log2_.data() + block * kBlockCells;
+  const std::uint32_t* covers = cover_.data() + block * kBlockCells;
+  const std::uint8_t* suits = suitability_.data() + block * kBlockCells;
+  const std::uint32_t most = most_steps_;
+  std::array<std::uint64_t, kBlockCells> open;
+  for (int k = 0; k < kBlockCells; ++k) open[static_cast<std::size_t>(k)] = fixed_exp2(fraction, logs[k], most);
   Pair sum;
-  if (suits_wholly_[block]) {
-    for (std::size_t n = first; n < first + kBlockCells; ++n)
-      sum.open += cover_[n] == 0 ? fixed_exp2(fraction, log2_[n], most_steps_) : 0;
-    sum.suited = sum.open;
-  } else {
-    for (std::size_t n = first; n < first + kBlockCells; ++n) sum += cell_weight(n);
+  for (int k = 0; k < kBlockCells; ++k) sum.open += covers[k] == 0 ? open[static_cast<std::size_t>(k)] : 0;
+  sum.suited = sum.open;
+  if (!suits_wholly_[block]) {
+    sum.suited = 0;
+    for (int k = 0; k < kBlockCells; ++k)
+      if (covers[k] == 0) sum.suited += suited(open[static_cast<std::size_t>(k)], suits[k]);
   }
   return sum;
 }
@@ -218,10 +228,10 @@ void ProbabilityField::apply(const Stamp& stamp, int sign) {
           step[static_cast<std::size_t>(k)] = static_cast<int>(s < kLast ? s : kLast);
         }
         const std::uint64_t* table = stamp.log2_kernel->data();
-        for (int k = 0; k < kBlockCells; ++k) {
-          const std::uint64_t value = table[step[static_cast<std::size_t>(k)]];
-          logs[k] += sign > 0 ? value : -value;
-        }
+        if (sign > 0)
+          for (int k = 0; k < kBlockCells; ++k) logs[k] += table[step[static_cast<std::size_t>(k)]];
+        else
+          for (int k = 0; k < kBlockCells; ++k) logs[k] -= table[step[static_cast<std::size_t>(k)]];
       }
 
       levels_[0].sums[block] = block_sum(block);
