@@ -108,7 +108,7 @@ bool textured(const scene::Material& material, const GltfOptions& options) {
 }
 
 // What of the model is used, each once, in order of first use.
-struct Inventory {
+struct Stock {
   std::vector<MeshFacts> meshes;
   std::vector<std::string> mesh_owners;  ///< first node of each, for messages
   std::unordered_map<const TriangleMesh*, std::size_t> mesh_index;
@@ -116,8 +116,8 @@ struct Inventory {
   std::vector<int> material_index;  ///< by the model's number; -1: unused
 };
 
-Inventory take_stock(const scene::Model& model, const GltfOptions& options) {
-  Inventory stock;
+Stock take_stock(const scene::Model& model, const GltfOptions& options) {
+  Stock stock;
   stock.material_index.assign(model.materials.size(), -1);
   for (const scene::Node& node : model.nodes) {
     for (const scene::Part& part : node.parts) {
@@ -143,7 +143,7 @@ Inventory take_stock(const scene::Model& model, const GltfOptions& options) {
 // The JSON chunk, put together from what was measured and laid out.
 class Document {
  public:
-  Document(const scene::Model& model, const Inventory& stock, const MeshLayout& layout,
+  Document(const scene::Model& model, const Stock& stock, const MeshLayout& layout,
            const std::vector<GltfImage>& images, const GltfOptions& options)
       : model_(model), stock_(stock), layout_(layout), images_(images), options_(options) {}
 
@@ -396,7 +396,7 @@ class Document {
 
  private:
   const scene::Model& model_;
-  const Inventory& stock_;
+  const Stock& stock_;
   const MeshLayout& layout_;
   const std::vector<GltfImage>& images_;
   const GltfOptions& options_;
@@ -423,7 +423,7 @@ Result<void> check_numbers(const scene::Model& model) {
   return {};
 }
 
-Result<void> measure_all(Inventory& stock) {
+Result<void> measure_all(Stock& stock) {
   std::vector<std::string> faults(stock.meshes.size());
   parallel_for(stock.meshes.size(), [&](std::size_t m) {
     if (const auto measured = measure(stock.meshes[m]); !measured) faults[m] = measured.error().message;
@@ -442,7 +442,7 @@ std::string in_gigabytes(std::uint64_t bytes) {
 const Error kCancelled = cannot_finish("cancelled while writing glTF");
 
 // The vertex data, group by group; false when cancelled.
-bool stream_meshes(FileOutput& file, const Inventory& stock, const MeshLayout& layout, const GltfOptions& options) {
+bool stream_meshes(FileOutput& file, const Stock& stock, const MeshLayout& layout, const GltfOptions& options) {
   std::vector<std::byte> bytes;
   for (const MeshGroup& group : layout.groups) {
     if (options.progress && options.progress->cancelled()) return false;
@@ -462,7 +462,7 @@ void write_words(FileOutput& file, Words... words) {
   file.write(std::as_bytes(std::span(all)));
 }
 
-Result<std::uint64_t> write_glb(const std::filesystem::path& path, const scene::Model& model, const Inventory& stock,
+Result<std::uint64_t> write_glb(const std::filesystem::path& path, const scene::Model& model, const Stock& stock,
                                 const MeshLayout& layout, const std::vector<GltfImage>& images,
                                 const GltfOptions& options) {
   std::uint64_t bin_bytes = layout.bytes;
@@ -496,9 +496,9 @@ Result<std::uint64_t> write_glb(const std::filesystem::path& path, const scene::
   return file->commit();
 }
 
-Result<std::uint64_t> write_separate(const std::filesystem::path& path, const scene::Model& model,
-                                     const Inventory& stock, const MeshLayout& layout,
-                                     const std::vector<GltfImage>& images, const GltfOptions& options) {
+Result<std::uint64_t> write_separate(const std::filesystem::path& path, const scene::Model& model, const Stock& stock,
+                                     const MeshLayout& layout, const std::vector<GltfImage>& images,
+                                     const GltfOptions& options) {
   const std::string stem = path.stem().string();
   std::vector<std::string> names{stem + ".bin"};
   for (const GltfImage& image : images) names.push_back(stem + "-" + image.name + image.ending());
@@ -552,7 +552,7 @@ Result<std::uint64_t> write_gltf(const scene::Model& model, const std::filesyste
   if (ending != ".glb" && ending != ".gltf")
     return Error{fmt::format("{}: a glTF file ends in .glb or .gltf", path.string())};
   if (auto checked = check_numbers(model); !checked) return checked.error();
-  Inventory stock = take_stock(model, options);
+  Stock stock = take_stock(model, options);
   if (options.progress) options.progress->begin("export", stock.meshes.size());
   if (auto measured = measure_all(stock); !measured) return measured.error();
   const MeshLayout layout = lay_out(stock.meshes);

@@ -12,7 +12,8 @@
 // Decision  normal maps of cut-out materials (leaves) are left out unless asked for: the tangents they need are a third
 //           of the bytes of a tree, for what is seen from very near only
 // Decision  the sun's intensity is `sun_intensity`, not its 100,000 lux, since most viewers have no exposure control
-// Holds     same model and options, same bytes: no time, no path, no thread count; nothing unused is written; the file
+// Holds     same model, options and file name, same bytes: no time, no thread count; nothing unused is written; the
+// file
 //           appears whole or not at all
 // Errors    `input`: a .glb that would exceed 2^32 - 1 bytes (refused before writing, with its size and ways out), an
 //           ending other than .glb or .gltf, what FileOutput refuses. `cannot_finish`: disk full, cancelled, a mesh
