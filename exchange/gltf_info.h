@@ -1,8 +1,7 @@
 // glTF info: what is in a .glb or .gltf file, from its JSON alone.
 //
-// Errors    anything that is no glTF 2.0: one message that names the file and what is wrong. Hostile input is safe:
-// size
-//           and nesting are limited, every index is checked, sums saturate.
+// Errors    anything that is no glTF 2.0: one message that names the file and what is wrong. Hostile input is
+//           safe: size and nesting are limited, every index is checked, sums saturate.
 // Cost      memory and time of the JSON chunk; the binary chunk is not read
 #pragma once
 

@@ -1,9 +1,8 @@
 // glTF meshes: what the vertex data of a model take in a buffer, and the bytes themselves, group by group.
 //
-// Model     a group is a run of meshes of about kGroupBytes; in it lie, one kind after the other, the positions of all
-// its
-//           meshes, then normals, texture coordinates, colours and indices. Each kind is one buffer view, each mesh an
-//           accessor in it.
+// Model     a group is a run of meshes of about kGroupBytes; in it lie, one kind after the other, the positions of
+//           all its meshes, then normals, tangents, texture coordinates, colours and indices. Each kind is one buffer
+//           view, each mesh an accessor in it.
 // Units     offsets and lengths in bytes from the start of the buffer; every kind starts on a multiple of four
 // Holds     layout depends on the meshes alone, so it is known before any byte is made
 #pragma once

@@ -3,24 +3,22 @@
 // Source    glTF 2.0 (ISO/IEC 12113:2022); KHR_lights_punctual for the sun
 // Model     a glTF node for each node of the model (name, translation, extras) with one mesh of a primitive per part.
 //           Parts that use the same TriangleMesh share its accessors, nodes with the same parts share the mesh.
-// Layout    POSITION and NORMAL float, TANGENT float where a normal map is used; TEXCOORD_0 16-bit when all lie in [0,
-// 1], else float, absent without textures;
-//           COLOR_0 8-bit, absent when all white; indices 16-bit up to 65,535 vertices, else 32-bit. Meshes are packed
-//           in groups of about 32 MB, in each group one buffer view per kind of data.
+// Layout    POSITION and NORMAL float, TANGENT float where a normal map is used; TEXCOORD_0 16-bit when all lie in
+//           [0, 1], else float, absent without textures; COLOR_0 8-bit, absent when all white; indices 16-bit up to
+//           65,535 vertices, else 32-bit. Meshes are packed in groups of about 32 MB, in each group one buffer view per
+//           kind of data.
 // Images    JPEG for colour without alpha and for normal maps, PNG where alpha is tested
 // Frame     world, metres, +Y up: glTF's own; numbers go out as they are. Degrees become radians.
 // Decision  normal maps of cut-out materials (leaves) are left out unless asked for: the tangents they need are a third
 //           of the bytes of a tree, for what is seen from very near only
 // Decision  the sun's intensity is `sun_intensity`, not its 100,000 lux, since most viewers have no exposure control
 // Holds     same model, options and file name, same bytes: no time, no thread count; nothing unused is written; the
-// file
-//           appears whole or not at all
+//           file appears whole or not at all
 // Errors    `input`: a .glb that would exceed 2^32 - 1 bytes (refused before writing, with its size and ways out), an
 //           ending other than .glb or .gltf, what FileOutput refuses. `cannot_finish`: disk full, cancelled, a mesh
 //           with indices out of range or numbers that are not finite (names the node).
 // Cost      one pass over the vertices to measure, one to order and write; besides the model one group of meshes and
-// the
-//           encoded images are held
+//           the encoded images are held
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,7 @@
 //
 // Source    Lengyel 2001, "Computing tangent space basis vectors for an arbitrary mesh"
 // Model     T = sum over a vertex's triangles of dP/du weighted by area, made perpendicular to the normal; w = +-1 so
-// that
-//           w * (N x T) points to falling v, which is up in an image: glTF's tangent space
+//           that w * (N x T) points to falling v, which is up in an image: glTF's tangent space
 // Holds     unit length, perpendicular to the normal; any perpendicular where u has no direction
 #pragma once
 
