@@ -250,7 +250,7 @@ class Painter {
       const Vec2 ahead = glm::normalize(points[i] - points[i - 1]);
       const float shoot_deg = degrees(atan2(ahead.x, ahead.y));
       const bool last = i + 1 == points.size();
-      const float off = last ? spread(12.0f) : static_cast<float>(hand) * (angle_deg + spread(13.0f));
+      const float off = last ? spread(12.0f) : static_cast<float>(hand) * angle_deg * (1.0f + spread(0.25f));
       hand = -hand;
       // Smaller toward the end of the shoot.
       const float t = static_cast<float>(i) / static_cast<float>(points.size());
@@ -262,15 +262,23 @@ class Painter {
   // Weeping willow: whips side by side, leaves along them, tips ahead.
   void strings() {
     const float side = canvas_.side(), length = metres(leaf_.length_mm);
-    const int count = std::clamp(leaf_.cluster_leaves / 12, 2, 5);
+    const int count = std::clamp(leaf_.cluster_leaves / 18, 2, 5);
     const int leaves = std::max(3, leaf_.cluster_leaves / count);
+    const Vec2 root{0.0f, 1.5f * kAtlasMargin * side};
+    canvas_.rod({0.0f, 0.0f}, root, 0.6f * twig(), 0.6f * twig(), dress_.twig, dress_.twig);
     for (int s = 0; s < count; ++s) {
-      const float place = static_cast<float>(s) - 0.5f * static_cast<float>(count - 1);
-      const float reach = (0.94f - 0.05f * std::fabs(place) - 0.16f * stream_.uniform()) * side;
-      // Out from the common foot, then parallel.
-      const float out = place * 25.0f + spread(4.0f);
-      const auto whip = shoot({0.0f, 0.0f}, out, -out * 1.3f, reach, 1.5f, 0.5f * twig(), 0.2f * twig(), leaves + 2);
-      along(whip, 2, length, 27.0f, s % 2 == 0 ? 1 : -1);
+      // Out from the common foot, then straight on, so that whips stay apart and daylight falls between them even when
+      // the card is seen small. They end at unlike heights.
+      const float place = (static_cast<float>(s) - 0.5f * static_cast<float>(count - 1)) / static_cast<float>(count);
+      const float x = 0.95f * place * side, y = 0.22f * side, rise = std::sqrt(x * x + y * y);
+      const float out = degrees(atan2(x, y)) / 0.75f;
+      const int low = std::max(2, leaves / 5);
+      const auto foot = shoot(root, 1.15f * out, -0.8f * out, rise, 0.0f, 0.5f * twig(), 0.45f * twig(), low);
+      const float lean = spread(5.0f), reach = stream_.uniform(0.60f, 0.84f) * side - 0.5f * y;
+      const auto whip =
+          shoot(foot.back(), lean, -1.6f * lean, reach, 1.5f, 0.45f * twig(), 0.2f * twig(), leaves - low);
+      along(foot, 2, length, 18.0f, s % 2 == 0 ? 1 : -1);
+      along(whip, 1, length, 15.0f, s % 2 == 0 ? 1 : -1);
     }
   }
 
@@ -298,7 +306,7 @@ class Painter {
   // A shoot clothed in needles: those behind, the wood, those to the sides and on top. The outer part is this year's.
   void needle_shoot(Vec2 base, float angle_deg, float length, float radius, float bend_deg, float bare_share) {
     const float needle = metres(leaf_.length_mm), width = metres(leaf_.width_mm);
-    const float per_metre = 1700.0f;
+    const float per_metre = 1500.0f;
     const int count = static_cast<int>(length * per_metre);
     constexpr int kPieces = 8;
     std::vector<Vec2> points{base};
@@ -326,7 +334,7 @@ class Painter {
         if (t < 0.02f * bare_share) continue;
         const float hand = stream_.uniform() < 0.5f ? -1.0f : 1.0f;
         // Swept forward; those on top lie closer to the shoot. Crowded forward at the tip.
-        float off = layer == 2 ? stream_.uniform(5.0f, 32.0f) : stream_.uniform(34.0f, 68.0f);
+        float off = layer == 2 ? stream_.uniform(4.0f, 26.0f) : stream_.uniform(26.0f, 58.0f);
         off *= 1.0f - 0.8f * smooth_step(0.8f, 1.0f, t);
         const Vec2 foot = at(t);
         const Vec2 tip = foot + heading(angle_deg + bend_deg * t + hand * off) *
@@ -337,7 +345,7 @@ class Painter {
         const Vec3 old = under ? glm::mix(dress_.upper, dress_.under, 0.6f) : dress_.upper;
         // This year's needles are a little lighter all summer, fresh green in spring.
         const Vec3 fresh = season_ == Season::spring ? dress_.tip : dress_.upper * Vec3(1.35f, 1.32f, 1.15f);
-        const float shade = layer == 0 ? 0.62f : layer == 1 ? 1.0f : 1.15f;
+        const float shade = layer == 0 ? 0.70f : layer == 1 ? 1.0f : 1.15f;
         canvas_.needle(foot, tip, width, glm::mix(old, fresh, young) * bright, shade);
       }
     }

@@ -86,11 +86,12 @@ TEST_P(Atlas, CoversASensibleShareOfEachCell) {
   for (int variant = 0; variant < 2; ++variant) {
     const float cluster = coverage(atlas, cluster_cell(variant)), single = coverage(atlas, leaf_cell(variant));
     if (has_leaves(leaf, season)) {
-      EXPECT_GT(cluster, 0.15f);
+      EXPECT_GT(cluster, 0.12f);  // the airiest, willow whips, about a seventh
       EXPECT_LT(cluster, 0.65f);
       if (leaf.outline == LeafOutline::needle_spray) {
-        EXPECT_GT(single, 0.15f);
-        EXPECT_LT(single, 0.65f);
+        // A shoot not quite two needles wide in a cell of five and a half, half of it needles.
+        EXPECT_GT(single, 0.10f);
+        EXPECT_LT(single, 0.30f);
         continue;
       }
       // A blade fills between two fifths and four fifths of its length times width.
