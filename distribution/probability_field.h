@@ -2,11 +2,10 @@
 //
 // Source    Longay 2014, 6.4.1 (fields multiplied by kernels; drawn by summing rows and columns)
 // Model     weight of a cell = suitability * 2^(sum of log2 K over the standing trees), 0 where a tree leaves no room
-// Decision  logarithms instead of products, and integers instead of floats: a cell holds one sum of log2 K for
-// clustering
-//           and one for inhibition, in steps of 2^-10, and a count of the trees that cover it; its weight is a 64-bit
-//           fixed-point number. So adding and taking away are exact and in any order, a field is a function of the
-//           trees standing, and 400,000 kernels of the strongest effect may overlap
+// Decision  logarithms instead of products, and integers instead of floats: a cell holds a sum of log2 K for
+//           clustering and one for inhibition, in steps of 2^-10, and a count of the trees that cover it; its weight is
+//           a 64-bit fixed-point number. So adding and taking away are exact and in any order, a field is a function of
+//           the trees standing, and 400,000 kernels of the strongest effect may overlap
 // Decision  overlapping clusters multiply up to `most` only. The source multiplies without end: from some ten trees a
 //           cluster outweighs the whole site and takes all that are planted. Inhibition ends at 2^-20
 // Drawing   instead of the source's rows and columns a quadtree of sums is descended. Every node has a random number
