@@ -5,9 +5,8 @@
 //           uniformly in the type's range, then its place by the type's field inside the region
 // Decision  a type without room in the region is left out of the draw; when no type has room, placing stops. A place
 //           that the exact rule refuses is drawn again; after 64 refusals a cell counts as full until the call ends
-// Rate      a brush of radius R and strength q plants rate * q * R^2 trees a second (rate in trees per m2 and s),
-// counted
-//           in steps of 1/60 s of recorded time, never by the display's clock
+// Rate      a brush of radius R and strength q plants rate * q * R^2 trees a second (rate in trees per m2 and s)
+//           and one when it touches the ground, in steps of 1/60 s of recorded time, never by the display's clock
 // Holds     the same seed, block and planting give the same trees; each tree's numbers hang on its key alone
 #pragma once
 
