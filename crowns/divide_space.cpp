@@ -91,6 +91,7 @@ class SpaceBuilder {
 
   Result<CrownSpace> build(Progress* progress) {
     if (auto checked = check(); !checked) return checked.error();
+    if (auto fits = check_columns(); !fits) return fits.error();
     if (const double bytes = plan(); bytes > 0) return too_large(bytes);
     space_.voxel_m_ = options_.voxel_m;
     space_.layer_m_ = options_.layer_m;
@@ -114,6 +115,16 @@ class SpaceBuilder {
     return {};
   }
 
+  // Each tree needs a column of its own.
+  Result<void> check_columns() {
+    place();
+    const double columns = (domain_.high.x - domain_.low.x + 1.0) * (domain_.high.y - domain_.low.y + 1.0);
+    if (static_cast<double>(trees_.size()) <= columns) return {};
+    return Error{
+        fmt::format("crown space: {} trees do not fit the site's {} columns of voxel_m = {}; use a smaller voxel_m",
+                    trees_.size(), columns, options_.voxel_m)};
+  }
+
   // Where trees stand and which tiles they need. Returns 0, or the bytes that it would take when they are too many.
   double plan() {
     place();
@@ -128,6 +139,7 @@ class SpaceBuilder {
   void place() {
     const double voxel = static_cast<double>(options_.voxel_m), layer = static_cast<double>(options_.layer_m);
     double longest = 0;
+    placed_.clear();
     for (const Claimant& t : trees_) {
       Placed p;
       p.east = static_cast<double>(t.base.x) / voxel;
@@ -275,7 +287,8 @@ class SpaceBuilder {
     for (double grow = std::sqrt(bytes / byte_limit()); grow * static_cast<double>(options_.voxel_m) <= kMostVoxel;
          grow *= 1.1) {
       tried.voxel_m = static_cast<float>(rounded_up(grow * static_cast<double>(options_.voxel_m)));
-      if (SpaceBuilder(trees_, terrain_, tried).plan() > 0) continue;
+      SpaceBuilder larger(trees_, terrain_, tried);
+      if (!larger.check_columns() || larger.plan() > 0) continue;
       advice = fmt::format("voxel_m = {} would fit", tried.voxel_m);
       break;
     }

@@ -6,8 +6,8 @@
 #include <bit>
 #include <map>
 #include <numeric>
-#include <regex>
 #include <set>
+#include <string>
 
 #include "core/parallel.h"
 #include "stands.h"
@@ -354,13 +354,13 @@ TEST(CrownSpace, MoreMemoryThanAllowedIsRefusedWithASizeThatFits) {
   const auto refused = divide_space(trees, flat(60), o);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::input);
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(refused.error().message, found, std::regex("voxel_m = ([0-9.]+) would fit")))
-      << refused.error().message;
-  EXPECT_NE(refused.error().message.find(" GB"), std::string::npos);
-  o.voxel_m = std::stof(found[1]);
+  const std::string message = refused.error().message, before = "; voxel_m = ", after = " would fit";
+  const std::size_t from = message.find(before), to = message.find(after);
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << message;
+  EXPECT_NE(message.find(" GB"), std::string::npos);
+  o.voxel_m = std::stof(message.substr(from + before.size()));
   EXPECT_LT(o.voxel_m, 0.4f);
-  EXPECT_TRUE(divide_space(trees, flat(60), o)) << found[0];
+  EXPECT_TRUE(divide_space(trees, flat(60), o)) << message;
 
   // Absurd sizes come back at once.
   o = unlimited(0.02f, 0.05f);
@@ -380,6 +380,19 @@ TEST(CrownSpace, WhatAUserCannotMeanIsOneMessage) {
   EXPECT_NE(refusal({}, strange).find("speed_exponent"), std::string::npos);
   EXPECT_NE(refusal({tree(17, {kUnlimited, 3}, 4, 4)}, {}).find("tree 17"), std::string::npos);
   EXPECT_NE(refusal({tree(18, {3, 3}, 0, 4)}, {}).find("tree 18"), std::string::npos);
+}
+
+TEST(CrownSpace, MoreTreesThanColumnsAreRefused) {
+  SpaceOptions o;
+  o.voxel_m = 10;
+  o.overhang_m = 0;
+  std::vector<Claimant> trees;
+  for (int n = 1; n <= 9; ++n) trees.push_back(tree(n, {12, 17}, 6, 10));
+  EXPECT_TRUE(divide_space(trees, flat(30), o));  // 3 x 3 columns
+  trees.push_back(tree(10, {12, 17}, 6, 10));
+  const auto refused = divide_space(trees, flat(30), o);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("10 trees do not fit"), std::string::npos);
 }
 
 TEST(CrownSpace, CancellingEndsWithoutAResult) {
