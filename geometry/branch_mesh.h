@@ -3,20 +3,18 @@
 // Source    Longay 2014, 5.5 (occlusion from the growth model's light) and C.3, eq. C.2; Wang et al. 2008, "Computation
 //           of rotation minimizing frames" (double reflection)
 // Model     rings of C vertices around a branch curve, joined by strips; C falls along a path as it gets thinner. The
-// tip
-//           is closed. Frames are carried along without twist
+//           tip is closed. Frames are carried along without twist
 // Erratum   eq. C.2 is C = 3 (d / d_e)^(1/n); the source prints 3 d^n / d_e
 // Decision  n = 2 and at most kMostSides sides. Coarseness c >= 1 divides the sides by c^(1/2) and drops rings that
 //           matter less than c
 // UV        u counts bark tiles around, v along the branch, upward: whole repeats around, as many as the base of the
-// path
-//           takes at true scale; as wood gets thinner its bark gets finer in both directions alike (so no seam, no
+//           path takes at true scale; as wood gets thinner its bark gets finer in both directions alike (so no seam, no
 //           stretching, and young wood has finer bark, as it has). Each path starts elsewhere on the tile and a small
 //           turn hides repetition
 // Colour    bark_tint() of the look by diameter and height, times occlusion from the skeleton's light
 // Holds     no NaN, no triangle without area, unit normals; a path is closed but for its base, which lies inside its
 //           parent or under the ground; triangles(plan) is exactly what mesh_branches makes
-// Cost      20-40 million triangles a second
+// Cost      about 50 million triangles a second; a plan within a budget some 0.3 microseconds an internode
 #pragma once
 
 #include <cstdint>

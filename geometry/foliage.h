@@ -3,30 +3,25 @@
 // Source    Longay 2014, C.1.1 (placement on all branches thinner than a threshold), C.1.2 (petiole as a rod stepped
 //           from its base), 5.5 (hue by vigor)
 // Model     H, L, U heading, left and up of the petiole, T the direction that the blade's upper side is drawn to; at
-// each
-//           of its steps the frame turns by
+//           each of its steps the frame turns by
 //             about H (twist)   Omega_H = -e_H L.T
 //             about L (bend)    Omega_L =  e_L H.T
 //             about U (turn)    Omega_U =  e_U L.(T x (H x T))
 //           T is the normal of a blade that hangs `droop` below level away from its twig, drawn toward the open side of
 //           the crown where there is much light
 // Decision  these turns alone let no leaf hang (they turn the blade, not the stalk's foot), so first its weight bends
-// the
-//           stalk toward the direction that hangs so far below level, by bend / (1 + bend) of the way
-// Levels    clusters: one card (folded along its twig) or crossed cards for each leafed twig of 5-15 leaves.
-//           leaves: each of these twigs with a card for every leaf of its own and one for its wood. cards: few, large
-//           twig cards for far trees. All show cells of the leaf atlas (leaf_atlas.h), and stand at the same places
+//           the stalk toward the direction that hangs so far below level, by bend / (1 + bend) of the way
+// Levels    clusters: one card (folded along its twig) or crossed cards for each leafed twig of 5-15 leaves. leaves:
+//           each of these twigs with a card for every leaf of its own and one for its wood. cards: few, large twig
+//           cards for far trees. All show cells of the leaf atlas (leaf_atlas.h), and stand at the same places
 // Decision  a twig bears leaves while it is thin and at most leaf_life seasons behind the last growth of its own
-// branch,
-//           so old twigs that live on without growing stay green at their ends
+//           branch, so old twigs that live on without growing stay green at their ends
 // Decision  a smaller number of cards keeps the area of all: each grows by the area of those left out. They are left
 //           out evenly along the branches, never at random
 // Decision  cards are wound so that their front looks out of the crown, and normals are bent outward likewise:
-// renderers
-//           that turn normals on back faces (glTF, double sided) then shade a crown as a soft volume
+//           renderers that turn normals on back faces (glTF, double sided) then shade a crown as a soft volume
 // Colour    linear, times the atlas: occlusion by the skeleton's light, a turn toward yellow with low vigor, variation
-// by
-//           tree and by card
+//           by tree and by card
 // Units     metres and degrees as named; tree frame
 // Holds     the same bits anywhere; a card's random numbers are keyed by its internode and its place there, so they do
 //           not change when other branches go
