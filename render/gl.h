@@ -6,9 +6,16 @@
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
+#include <cstring>
 #include <utility>
 
 namespace bosquet::render {
+
+/// Whether the current context draws on the CPU, where other things are cheap than on a graphics card.
+inline bool drawn_by_software() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
 
 template <void (*Create)(GLsizei, GLuint*), void (*Delete)(GLsizei, const GLuint*)>
 class GlObject {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <string>
@@ -79,12 +78,6 @@ GpuMesh upload_mesh(const TriangleMesh& mesh) {
   return out;
 }
 
-/// Mesa's software drivers take ten times as long over anisotropic textures.
-bool drawn_by_software() {
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
-}
-
 GlTexture upload_chain(const std::vector<Image>& chain, bool srgb, bool anisotropic) {
   GlTexture texture = GlTexture::make();
   glBindTexture(GL_TEXTURE_2D, texture.name());
@@ -95,6 +88,7 @@ GlTexture upload_chain(const std::vector<Image>& chain, bool srgb, bool anisotro
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(chain.size()) - 1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  // Software takes ten times as long over anisotropic textures.
   if (anisotropic && !drawn_by_software()) {
     glTexParameterf(GL_TEXTURE_2D, kMaxAnisotropy, kAnisotropy);
     glGetError();

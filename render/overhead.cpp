@@ -15,6 +15,9 @@ constexpr float kSmallestCellM = 0.1f;
 /// The ground this near to its edge colours the land around.
 constexpr float kEdgeShare = 0.02f;
 
+/// Ground less than this above the water is shore.
+constexpr float kDryM = 0.5f;
+
 /// Calls put(cell index, height) for the cells whose centre lies under a triangle, and for the cell of its centroid.
 template <class Put>
 void rasterise(const Overhead& map, const Vec3& a, const Vec3& b, const Vec3& c, const Put& put) {
@@ -58,6 +61,22 @@ void box_blur(std::vector<Vec2>& field, int columns, int rows, int r, bool along
     }
     for (int i = 0; i < length; ++i) at(i) = out[static_cast<std::size_t>(i)];
   });
+}
+
+/// Gives cells beyond the ground's rectangle the height of its nearest edge, so that a river flows on.
+void extend_ground(Overhead& map, float nothing) {
+  const auto at = [&](int i, int j) -> float& { return map.ground[static_cast<std::size_t>(j * map.columns + i)]; };
+  IVec2 low(map.columns, map.rows), high(-1);
+  for (int j = 0; j < map.rows; ++j)
+    for (int i = 0; i < map.columns; ++i)
+      if (at(i, j) > nothing) low = glm::min(low, IVec2(i, j)), high = glm::max(high, IVec2(i, j));
+  for (int j = 0; j < map.rows; ++j)
+    for (int i = 0; i < map.columns; ++i) {
+      if (at(i, j) > nothing) continue;
+      const IVec2 nearest = high.x < 0 ? IVec2(0) : glm::clamp(IVec2(i, j), low, high);
+      const float height = high.x < 0 ? map.base : at(nearest.x, nearest.y);
+      at(i, j) = height > nothing ? height : map.base;
+    }
 }
 
 /// Mean base colour of a material's texture, linear.
@@ -125,17 +144,27 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
                   mesh.positions[mesh.indices[i + 1]] + node.translation,
                   mesh.positions[mesh.indices[i + 2]] + node.translation,
                   [&](std::size_t cell, float height) { heights[cell] = std::max(heights[cell], height); });
-      if (ground && !mesh.positions.empty()) {
-        const Vec3 texture = mean_colour(material), factor(material.base_factor);
-        const Box3 box = mesh.bounds();
-        const Vec3 rim = kEdgeShare * box.size();
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-          const glm::dvec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
-          albedo += glm::dvec4(glm::dvec3(texture) * tint, 1.0);
-          const Vec3 from_low = mesh.positions[i] - box.low, from_high = box.high - mesh.positions[i];
-          if (std::min(from_low.x, from_high.x) <= rim.x || std::min(from_low.z, from_high.z) <= rim.z)
-            edge_tint += glm::dvec4(glm::dvec3(factor) * tint, 1.0);
-        }
+    }
+  // Colours of the ground, and of its dry edge.
+  for (const scene::Node& node : model.nodes)
+    for (const scene::Part& part : node.parts) {
+      if (!part.mesh || model.materials[part.material].surface != scene::Surface::ground) continue;
+      const TriangleMesh& mesh = *part.mesh;
+      const scene::Material& material = model.materials[part.material];
+      const Vec3 texture = mean_colour(material), factor(material.base_factor);
+      const Box3 box = mesh.bounds();
+      const Vec3 rim = kEdgeShare * box.size();
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::dvec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
+        albedo += glm::dvec4(glm::dvec3(texture) * tint, 1.0);
+        const Vec3 from_low = mesh.positions[i] - box.low, from_high = box.high - mesh.positions[i];
+        const float above_water = mesh.positions[i].y + node.translation.y - map.water_level_m.value_or(-1e30f);
+        if (std::min({from_low.x, from_high.x}) <= rim.x || std::min(from_low.z, from_high.z) <= rim.z)
+          if (above_water > kDryM) {
+            // Meadow goes on around the site; soil and woodland floor only where nothing green reaches the edge.
+            const double weight = tint.g > tint.r && tint.g > tint.b ? 1.0 : 1e-3;
+            edge_tint += weight * glm::dvec4(glm::dvec3(factor) * tint, 1.0);
+          }
       }
     }
   if (edge_tint.w > 0) map.land_tint = Vec3(glm::dvec3(edge_tint) / edge_tint.w);
@@ -160,8 +189,9 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
   for (std::size_t c = 0; c < cells; ++c) {
     const float floor = map.ground[c] > kNothing ? map.ground[c] : map.land_height;
     top[c] = std::max(top[c], floor);
-    map.ground[c] = map.ground[c] > kNothing ? map.ground[c] : map.base;
   }
+
+  extend_ground(map, kNothing);
 
   // Means over the discs: three box means after one another are close to a round bell.
   std::vector<Vec2> moments(cells);

@@ -22,7 +22,7 @@ struct Overhead {
   float cell = 1.0f;
   float base = 0.0f, scale = 1.0f;
   std::vector<Vec4> cover;    ///< mean and mean square of the height over the small disc, then over the large one
-  std::vector<float> ground;  ///< height of the ground, metres; `base` where there is none
+  std::vector<float> ground;  ///< height of the ground, metres; around it that of its nearest edge
 
   float land_height = 0.0f;            ///< of plain land around the site: median of the ground along the site's edge
   Vec3 ground_albedo{0.16f};           ///< mean of the ground's base colour, linear

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,10 +26,12 @@ constexpr int kCascades = 3;
 constexpr int kSmallestShadow = 512, kLargestShadow = 4096;  ///< texels a side; as many as the picture has pixels
 constexpr int kLargestPicture = 32768;
 constexpr int kTileLimit = 4096;
+constexpr int kSamples = 4;
+constexpr float kLargestMirror = 2048;
 
 /// Exposure puts a surface of 0.18 / kBrightness that lies open to the sky at the middle of the tone curve: plants
 /// reflect about a tenth.
-constexpr float kBrightness = 1.6f;
+constexpr float kBrightness = 2.1f;
 
 /// How far the eye adapts to the colour of the light.
 constexpr float kWhiteBalance = 0.6f;
@@ -42,7 +45,7 @@ constexpr float kLandTileM = 3.0f;
 /// Lottes 2016, "Advanced techniques and optimization of HDR color pipelines": contrast, shoulder, and the curve
 /// through (middle grey, middle out) and (brightest, 1).
 Vec4 tone_curve() {
-  constexpr float contrast = 1.22f, shoulder = 0.975f, grey = 0.18f, grey_out = 0.20f, brightest = 9.0f;
+  constexpr float contrast = 1.28f, shoulder = 0.975f, grey = 0.18f, grey_out = 0.20f, brightest = 9.0f;
   const float grey_a = std::pow(grey, contrast), bright_a = std::pow(brightest, contrast);
   const float grey_ad = std::pow(grey, contrast * shoulder), bright_ad = std::pow(brightest, contrast * shoulder);
   const float b = (-grey_a + bright_a * grey_out) / ((bright_ad - grey_ad) * grey_out);
@@ -65,7 +68,7 @@ Error check(const View& view) {
   };
   if (view.width < 1 || view.width > kLargestPicture) return {range("width", view.width, 1, kLargestPicture)};
   if (view.height < 1 || view.height > kLargestPicture) return {range("height", view.height, 1, kLargestPicture)};
-  if (view.samples < 1 || view.samples > 16) return {range("samples", view.samples, 1, 16)};
+  if (view.samples < 0 || view.samples > 16) return {range("samples", view.samples, 0, 16)};
   if (view.supersample < 1 || view.supersample > 4) return {range("supersample", view.supersample, 1, 4)};
   const float fov = view.camera.vertical_fov_deg;
   if (!(view.orthographic_height_m > 0) && !(fov >= 1 && fov <= 170))
@@ -99,6 +102,8 @@ struct Renderer::State {
  private:
   FrameBlock light_block(const View& view, const ViewVolume& volume);
   void use_atmosphere(const scene::Sun& sun, float turbidity);
+  static void aim(FrameBlock& block, const ViewVolume& volume, const ClipWindow& window);
+  Result<void> draw_mirror(FrameBlock& block, const ViewVolume& volume, const View& view);
   void draw_shadows(const std::vector<Cascade>& cascades);
   void draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn);
   void draw_parts(const Program& program, Shader shader, const std::vector<const Drawable*>& parts, const Vec3& eye);
@@ -192,7 +197,9 @@ Result<Image> Renderer::draw(const View& view) {
 
 Result<void> Renderer::draw_into(unsigned framebuffer, const View& view) {
   if (Error problem = check(view); !problem.message.empty()) return problem;
-  return state_->draw(view, [&](int x, int y, int w, int h) {
+  View plain = view;
+  plain.supersample = 1;
+  return state_->draw(plain, [&](int x, int y, int w, int h) {
     // Without conversion: the bytes are sRGB already.
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glDisable(GL_FRAMEBUFFER_SRGB);
@@ -205,12 +212,13 @@ Result<void> Renderer::draw_into(unsigned framebuffer, const View& view) {
 /// picture counted from its lower left.
 Result<void> Renderer::State::draw(const View& view, const std::function<void(int x, int y, int w, int h)>& take_tile) {
   facts = {};
-  facts.samples = std::min<int>(view.samples, most_samples);
+  const int asked = view.samples > 0 ? view.samples : drawn_by_software() && view.supersample > 1 ? 1 : kSamples;
+  facts.samples = std::min<int>(asked, most_samples);
   const bool natural = view.shading == Shading::natural;
   const ViewVolume volume = make_view_volume(view, model.box);
   FrameBlock block = light_block(view, volume);
 
-  // Shadows and mirror are the same light for all tiles, the mirror is drawn with each.
+  // Shadows and the mirror picture serve all tiles.
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
@@ -242,48 +250,15 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
     return cannot_finish("the graphics driver refuses a picture of " + std::to_string(tile_width) + " x " +
                          std::to_string(tile_height) + " pixels with " + std::to_string(facts.samples) + " samples");
 
+  if (natural)
+    if (Result<void> drawn = draw_mirror(block, volume, view); !drawn) return drawn;
+
   for (int y = 0; y < view.height; y += tile_height)
     for (int x = 0; x < view.width; x += tile_width) {
       const int w = std::min(tile_width, view.width - x), h = std::min(tile_height, view.height - y);
       const Vec2 size(view.width, view.height);
-      const ClipWindow window{Vec2(x, y) / size * 2.0f - 1.0f, Vec2(x + w, y + h) / size * 2.0f - 1.0f};
-      const Rays seen = rays(volume, window);
-      block.relative_to_clip = relative_to_clip(volume, window);
-      block.ray_right = Vec4(seen.right, 0), block.ray_up = Vec4(seen.up, 0), block.ray_forward = Vec4(seen.forward, 0);
-      block.view_point = Vec4(seen.origin, volume.orthographic ? 1.0f : 0.0f);
-      block.target = Vec4(w, h, 0, 0);
-      block.clip = Vec4(0, 0, 0, 1);
-      block.water.z = 0;
-
-      // The scene upside down for the water, when water can be seen.
-      const Overhead& over = model.overhead;
-      bool water_seen = false;
-      for (const Drawable& d : model.drawables)
-        water_seen |= model.materials[d.material].shader == Shader::water &&
-                      may_be_seen(block.relative_to_clip, relative(d.box, volume.eye));
-      if (natural && water_seen && over.water_level_m && volume.eye.y > *over.water_level_m && !volume.orthographic) {
-        const float lift = 2 * (*over.water_level_m - volume.eye.y);
-        FrameBlock flipped = block;
-        Mat4 mirror_matrix(1.0f);
-        mirror_matrix[1][1] = -1;
-        mirror_matrix[3][1] = lift;
-        flipped.relative_to_clip = block.relative_to_clip * mirror_matrix;
-        for (Vec4* axis : {&flipped.ray_right, &flipped.ray_up, &flipped.ray_forward, &flipped.forward}) axis->y *= -1;
-        flipped.view_point = Vec4(0, lift, 0, 0);
-        flipped.forward.w = 1;
-        flipped.air.w = 0;
-        flipped.shading.y = 1;
-        flipped.clip = Vec4(0, 1, 0, volume.eye.y - *over.water_level_m);
-        const int mirror_w = std::max(1, (w + 1) / 2), mirror_h = std::max(1, (h + 1) / 2);
-        flipped.target = Vec4(mirror_w, mirror_h, 0, 0);
-        if (!mirror.fit(mirror_w, mirror_h)) return cannot_finish("the graphics driver refuses a mirror picture");
-        glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer());
-        glViewport(0, 0, mirror_w, mirror_h);
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        draw_scene(flipped, volume, {true, *over.water_level_m}, true);
-        block.water.z = 1;
-      }
+      aim(block, volume, {Vec2(x, y) / size * 2.0f - 1.0f, Vec2(x + w, y + h) / size * 2.0f - 1.0f});
+      block.target = Vec4(view.width, view.height, x, y);
 
       glBindFramebuffer(GL_FRAMEBUFFER, tile.drawn());
       glViewport(0, 0, w, h);
@@ -358,8 +333,56 @@ FrameBlock Renderer::State::light_block(const View& view, const ViewVolume& volu
   const float site = glm::length(over.size());
   block.land_albedo = Vec4(over.ground_albedo, std::max(kWoodsM, 1.2f * site));
   block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_level_m ? 1 : 0, 0, 0);
+  block.lens = Vec4(volume.half_width, volume.half_height, 0, 0);
+  block.clip = Vec4(0, 0, 0, 1);
   block.shading = Vec4(static_cast<float>(view.shading), static_cast<float>(facts.samples), 0, 0);
   return block;
+}
+
+/// The part of the block that belongs to a window of the picture.
+void Renderer::State::aim(FrameBlock& block, const ViewVolume& volume, const ClipWindow& window) {
+  const Rays seen = rays(volume, window);
+  block.relative_to_clip = relative_to_clip(volume, window);
+  block.ray_right = Vec4(seen.right, 0), block.ray_up = Vec4(seen.up, 0), block.ray_forward = Vec4(seen.forward, 0);
+  block.view_point = Vec4(seen.origin, volume.orthographic ? 1.0f : 0.0f);
+}
+
+/// The scene upside down for the water, when water can be seen: the whole picture at half its size. Says so in `block`.
+Result<void> Renderer::State::draw_mirror(FrameBlock& block, const ViewVolume& volume, const View& view) {
+  const std::optional<float> level = model.overhead.water_level_m;
+  if (!level || volume.eye.y <= *level || volume.orthographic) return {};
+  FrameBlock flipped = block;
+  aim(flipped, volume, {});
+  const bool seen = std::any_of(model.drawables.begin(), model.drawables.end(), [&](const Drawable& d) {
+    return model.materials[d.material].shader == Shader::water &&
+           may_be_seen(flipped.relative_to_clip, relative(d.box, volume.eye));
+  });
+  if (!seen) return {};
+
+  // Looked at from below the surface, as far down as the eye is above it.
+  const float lift = 2 * (*level - volume.eye.y);
+  Mat4 upside_down(1.0f);
+  upside_down[1][1] = -1;
+  upside_down[3][1] = lift;
+  flipped.relative_to_clip = flipped.relative_to_clip * upside_down;
+  for (Vec4* axis : {&flipped.ray_right, &flipped.ray_up, &flipped.ray_forward, &flipped.forward}) axis->y *= -1;
+  flipped.view_point = Vec4(0, lift, 0, 0);
+  flipped.forward.w = 1;
+  flipped.air.w = 0;
+  flipped.shading.y = 1;
+  flipped.clip = Vec4(0, 1, 0, volume.eye.y - *level);
+  const float shrink = std::min(0.5f, kLargestMirror / static_cast<float>(std::max(view.width, view.height)));
+  const int w = std::max(1, static_cast<int>(shrink * static_cast<float>(view.width)));
+  const int h = std::max(1, static_cast<int>(shrink * static_cast<float>(view.height)));
+  flipped.target = Vec4(w, h, 0, 0);
+  if (!mirror.fit(w, h)) return cannot_finish("the graphics driver refuses a mirror picture for the water");
+  glBindFramebuffer(GL_FRAMEBUFFER, mirror.framebuffer());
+  glViewport(0, 0, w, h);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_scene(flipped, volume, {true, *level}, true);
+  block.water.z = 1;
+  return {};
 }
 
 void Renderer::State::draw_shadows(const std::vector<Cascade>& cascades) {
@@ -474,10 +497,19 @@ void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volu
   };
 
   draw_all(programs.solid, Shader::solid);
-  const bool coverage = !pass.mirrored && facts.samples > 1;
-  if (coverage) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE), glEnable(GL_SAMPLE_ALPHA_TO_ONE);
-  draw_all(programs.leaf, Shader::leaf);
-  if (coverage) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE), glDisable(GL_SAMPLE_ALPHA_TO_ONE);
+  const std::vector<const Drawable*> leaves = sorted(Shader::leaf);
+  if (!pass.mirrored && facts.samples > 1) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glUseProgram(programs.leaf_cover.name());
+  draw_parts(programs.leaf_cover, Shader::leaf, leaves, volume.eye);
+  glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+  glUseProgram(programs.leaf.name());
+  draw_parts(programs.leaf, Shader::leaf, leaves, volume.eye);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
   draw_all(programs.ground, Shader::ground);
   glDisable(GL_CULL_FACE);
   if (sky_drawn) {

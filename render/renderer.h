@@ -47,8 +47,9 @@ class Renderer {
   /// The picture, first row at the top. Drawn in tiles when it is larger than the driver's or our limit.
   Result<Image> draw(const View& view);
 
-  /// The same picture into a bound framebuffer object of the caller (0: the window) of view.width x view.height with
-  /// sRGB encoding on; `supersample` and `samples` are the caller's business there.
+  /// The same picture into the lower left of a framebuffer of the caller (0: the window), as sRGB bytes, whether its
+  /// format says so or not; `supersample` is not used. GL state it leaves: that framebuffer bound, depth test on,
+  /// blending and culling off, no program.
   Result<void> draw_into(unsigned framebuffer, const View& view);
 
   /// Longest side of a tile in pixels (default 4096, at least 16); tests draw small tiles.

@@ -18,7 +18,7 @@ layout(std140) uniform Frame {
   vec4 ambient[9];
   vec4 air, tone;
   vec4 over_area, over_height, land_albedo;
-  vec4 water, target, shading, clip;
+  vec4 water, target, lens, shading, clip;
 };
 )";
 
@@ -132,7 +132,7 @@ float sunlit(vec3 relative, vec3 normal, float widen) {
 
 // Tone curve of Lottes 2016 on channels mixed a little, so that bright colours pale as film does.
 vec3 tone_mapped(vec3 c) {
-  const float mixed = 0.06, apart = 0.045;
+  const float mixed = 0.05, apart = 0.07;
   c = mix(c, vec3(c.r + c.g + c.b) / 3.0, mixed * 1.5);
   vec3 z = pow(max(c, vec3(0.0)), vec3(tone.x));
   c = z / (pow(z, vec3(tone.y)) * tone.z + tone.w);
@@ -150,6 +150,7 @@ layout(location = 1) in vec4 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 colour;
 uniform vec3 offset;  // of the node, relative to the eye
+invariant gl_Position;
 out vec3 v_relative, v_normal, v_colour;
 out vec2 v_uv;
 void main() {
@@ -170,8 +171,8 @@ vec3 ground_texture(sampler2D map, vec2 uv) {
 // Ground is never even: drier and lusher patches over many metres.
 vec3 ground_patches(vec2 p) {
   float wide = layered_noise(p / 38.0) - 0.5, near = layered_noise(p / 7.0 + 31.0) - 0.5;
-  return (1.0 + 0.35 * wide + 0.22 * near) *
-         mix(vec3(1.10, 1.0, 0.82), vec3(0.92, 1.02, 0.98), clamp(0.5 + 1.6 * wide + 0.6 * near, 0.0, 1.0));
+  return (1.0 + 0.28 * wide + 0.20 * near) *
+         mix(vec3(1.06, 1.0, 0.88), vec3(0.95, 1.01, 0.98), clamp(0.5 + 1.4 * wide + 0.6 * near, 0.0, 1.0));
 }
 )";
 
@@ -232,21 +233,35 @@ void main() {
 }
 )";
 
-const char* const kLeafMain = R"(
-// Alpha sharpened around the cutoff to an edge one pixel wide, rounded to what coverage can hold.
+// Leaves are drawn twice: depth alone where they cover, then light where that depth is met, so that of the many layers
+// of a crown only what is seen is shaded.
+const char* const kLeafCover = R"(
+in vec2 v_uv;
+uniform sampler2D colour_map;
+uniform vec4 base_factor;
+uniform vec4 material;
+uniform vec2 maps;
+out vec4 out_colour;
+// Alpha sharpened around the cutoff to an edge one pixel wide.
 float covered(float alpha) {
   return clamp((alpha - material.y) / max(fwidth(alpha), 1e-3) + 0.5, 0.0, 1.0);
 }
 void main() {
-  vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
-  float cover = material.y > 0.0 ? covered(texel.a * base_factor.a) : 1.0;
-  float steps = max(shading.y, 1.0);
+  float texel = maps.x > 0.5 ? texture(colour_map, v_uv).a : 1.0;
+  float cover = material.y > 0.0 ? covered(texel * base_factor.a) : 1.0;
   // The hardware rounds coverage up; taking half a step off rounds it to the nearest.
-  float alpha = cover >= 1.0 ? 1.0 : cover - 0.5 / steps;
+  float alpha = cover >= 1.0 ? 1.0 : cover - 0.5 / max(shading.y, 1.0);
   if (alpha <= 0.0) discard;
+  out_colour = vec4(0.0, 0.0, 0.0, alpha);
+}
+)";
+
+const char* const kLeafMain = R"(
+void main() {
+  vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
   vec3 albedo = texel.rgb * base_factor.rgb * v_colour;
-  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, alpha); return; }
-  if (shading.x > 0.5) { out_colour = vec4(albedo, alpha); return; }
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
   vec3 to_eye = view_point.xyz - v_relative;
   float distance_m = length(to_eye);
   vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
@@ -264,8 +279,8 @@ void main() {
   light += open * (kept * ambient_light(n) + 0.6 * through * ambient_light(-n));
   light /= pi;
   // A wax shine, gone where leaves become too small to be seen one by one.
-  if (nl > 0.0) light += sun_light.rgb * (lit * 0.6 * gloss(n, v, max(material.x, 0.45)) * exp(-distance_m / 40.0));
-  out_colour = vec4(encoded(through_air(light, -v, distance_m)), alpha);
+  if (nl > 0.0) light += sun_light.rgb * (lit * 0.35 * gloss(n, v, max(material.x, 0.45)) * exp(-distance_m / 40.0));
+  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
 }
 )";
 
@@ -293,23 +308,27 @@ void main() {
 }
 )";
 
-const char* const kWaterMain = R"(
+const char* const kWater = R"(
 uniform sampler2D ground_map, mirror_map;
 
-// Slope of ripples: waves from a few directions, each left out where it is finer than a pixel.
+float bed_height(vec2 p) { return texture(ground_map, (p - over_area.xy) * over_area.zw).r; }
+
+// Slope of ripples: waves from a few directions, each left out where it is finer than a pixel; `lost` is the variance
+// of slope that went with them.
 vec2 ripple_slope(vec2 p, float pixel_m, out float lost) {
-  const int count = 7;
+  const int count = 9;
   const vec2 heading[count] = vec2[count](vec2(0.94, 0.34), vec2(0.62, 0.78), vec2(0.99, -0.17), vec2(0.21, 0.98),
-                                          vec2(0.80, -0.60), vec2(-0.34, 0.94), vec2(0.5, 0.866));
-  const float wavelength[count] = float[count](3.1, 2.17, 1.43, 0.97, 0.61, 0.43, 0.29);
+                                          vec2(0.80, -0.60), vec2(-0.34, 0.94), vec2(0.5, 0.866), vec2(0.97, 0.22),
+                                          vec2(0.37, -0.93));
+  const float wavelength[count] = float[count](2.3, 1.57, 1.13, 0.81, 0.53, 0.37, 0.26, 0.17, 0.12);
   // Gusts: patches of rougher and smoother water.
-  float gust = 0.35 + 1.1 * layered_noise(p / 11.0);
-  vec2 bend = vec2(noise(p / 3.7), noise(p / 3.7 + 57.0)) * 2.6;
+  float gust = 0.25 + 1.2 * layered_noise(p / 13.0);
+  vec2 bend = vec2(noise(p / 2.9), noise(p / 2.9 + 57.0)) * 0.7;
   vec2 slope = vec2(0.0);
   lost = 0.0;
   for (int i = 0; i < count; ++i) {
     float k = 2.0 * pi / wavelength[i];
-    float steep = 0.011 * air.z * gust;
+    float steep = 0.0085 * air.z * gust;
     float kept = clamp(wavelength[i] / (2.5 * pixel_m) - 0.5, 0.0, 1.0);
     slope += heading[i] * (steep * kept * cos(k * dot(heading[i], p + bend) + float(i) * 1.7));
     lost += steep * steep * 0.5 * (1.0 - kept * kept);
@@ -317,42 +336,36 @@ vec2 ripple_slope(vec2 p, float pixel_m, out float lost) {
   return slope;
 }
 
-void main() {
-  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
-  if (shading.x > 0.5) { out_colour = vec4(base_factor.rgb * v_colour, 1.0); return; }
-  vec3 world = v_relative + eye.xyz;
-  vec3 to_eye = view_point.xyz - v_relative;
-  float distance_m = length(to_eye);
-  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
-  vec2 dx = dFdx(v_relative.xz), dy = dFdy(v_relative.xz);
+// Light from the water's surface and body, and the share of what lies below that it hides. v points to the eye.
+vec4 water_light(vec3 relative, vec3 v, float distance_m, float pixel_m) {
+  vec3 world = relative + eye.xyz;
   float lost;
-  vec2 slope = ripple_slope(world.xz, max(length(dx), length(dy)), lost);
+  vec2 slope = ripple_slope(world.xz, pixel_m, lost);
   vec3 n = normalize(vec3(-slope.x, 1.0, -slope.y));
   float nv = clamp(dot(n, v), 0.02, 1.0);
-  float fresnel = 0.02 + 0.98 * pow(1.0 - nv, 5.0);
+  float fresnel = 0.025 + 0.975 * pow(1.0 - nv, 5.0);
 
   // What it mirrors: the mirrored picture where there is one, shifted by the ripples, else the sky.
   vec3 r = reflect(-v, n);
   r.y = abs(r.y);
   vec3 mirrored = clear_sky(r);
   if (water.z > 0.5) {
-    vec2 at = gl_FragCoord.xy / target.xy;
-    // A tilt by s moves the mirror image by about 2 s of the depth of what is mirrored, here some 12 m behind.
-    vec2 side = vec2(0.6 * dot(slope, normalize(ray_right.xz + 1e-6)), dot(slope, normalize(ray_forward.xz + 1e-6)));
-    float shift = 2.0 * 12.0 / (distance_m + 12.0);
-    vec2 tangent = vec2(length(ray_right.xyz), length(ray_up.xyz));
-    at += vec2(side.x, -side.y) * shift * 0.5 / tangent;
+    // A tilt by s moves the mirror image by about 2 s of the distance of what is mirrored, here some 10 m behind.
+    vec2 right = normalize(ray_right.xz + 1e-6);
+    vec2 side = vec2(0.6 * dot(slope, right), dot(slope, vec2(right.y, -right.x)));
+    float shift = 2.0 * 10.0 / (distance_m + 10.0);
+vec2 at = (gl_FragCoord.xy + target.zw) / target.xy + vec2(side.x, -side.y) * shift * 0.5 / lens.xy;
     mirrored = texture(mirror_map, clamp(at, 0.002, 0.998)).rgb;
   }
 
   // Below: light fades with the way through the water, murky green takes its place.
-  float bed = texture(ground_map, (world.xz - over_area.xy) * over_area.zw).r;
-  float depth_m = max(water.x - bed, 0.0);
+  float depth_m = max(water.x - bed_height(world.xz), 0.0);
   float way = depth_m / max(0.35, sqrt(1.0 - (1.0 - nv * nv) / 1.77)) + depth_m;
   vec3 passed = exp(-way * vec3(2.2, 1.3, 1.6));
-  float lit = sunlit(v_relative, vec3(0.0, 1.0, 0.0), 0.4);
+  float lit = sunlit(relative, vec3(0.0, 1.0, 0.0), 0.4);
   float open = mix(0.4, 1.0, open_sky(world));
-  vec3 murk = vec3(0.030, 0.044, 0.034) * (sky_light.rgb * open + sun_light.rgb * (max(to_sun.y, 0.0) * mix(0.4, 1.0, lit))) / pi;
+  vec3 murk = vec3(0.030, 0.044, 0.034) / pi *
+              (sky_light.rgb * open + sun_light.rgb * (max(to_sun.y, 0.0) * mix(0.4, 1.0, lit)));
 
   // The sun's path on the water, spread by ripples too fine to see.
   vec3 h = normalize(v + to_sun.xyz);
@@ -361,12 +374,22 @@ void main() {
   vec3 glint = sun_light.rgb * (lit * min(fresnel * a2 / (pi * d * d) * 0.25 / nv, 3.0));
 
   float seen = dot(passed, vec3(0.35, 0.45, 0.20)) * (1.0 - fresnel);
-  float alpha = clamp(1.0 - seen, 0.0, 1.0);
-  // Shallow water at the very edge is clear, so that the shore has no hard line.
   vec3 light = fresnel * mirrored + (1.0 - fresnel) * (vec3(1.0) - passed) * murk + glint;
-  alpha *= smoothstep(0.0, 0.06, depth_m);
-  light = through_air(light / max(1.0 - seen, 0.05), -v, distance_m);
-  out_colour = vec4(encoded(light) * alpha, alpha);
+  // Shallow water at the very edge is clear, so that the shore has no hard line.
+  float hides = (1.0 - seen) * smoothstep(0.0, 0.06, depth_m);
+  return vec4(through_air(light / max(1.0 - seen, 0.05), -v, distance_m), hides);
+}
+)";
+
+const char* const kWaterMain = R"(
+void main() {
+  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
+  if (shading.x > 0.5) { out_colour = vec4(base_factor.rgb * v_colour, 1.0); return; }
+  vec3 to_eye = view_point.xyz - v_relative;
+  float distance_m = length(to_eye);
+  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
+  vec4 seen = water_light(v_relative, v, distance_m, max(length(dFdx(v_relative.xz)), length(dFdy(v_relative.xz))));
+  out_colour = vec4(encoded(seen.rgb) * seen.a, seen.a);
 }
 )";
 
@@ -393,10 +416,13 @@ vec3 sky(vec3 d) {
   vec3 light = clear_sky(d);
   // Thin high cloud on a flat layer, whiter toward the sun, thinning out at the horizon.
   if (air.y > 0.0 && d.y > 0.0) {
-    vec2 p = d.xz / (d.y + 0.12) * 1.3;
-    vec2 drift = vec2(layered_noise(p * 0.9 + 3.0), layered_noise(p * 0.9 + 71.0));
-    float density = layered_noise(p * vec2(0.8, 1.7) + 1.8 * drift);
-    float cover = smoothstep(0.78 - 0.5 * air.y, 1.02 - 0.3 * air.y, density) * smoothstep(0.01, 0.30, d.y) * 0.75;
+    vec2 p = d.xz / (d.y + 0.10);
+    vec2 drift = vec2(layered_noise(p * 0.7 + 3.0), layered_noise(p * 0.7 + 71.0)) - 0.5;
+    // Long streaks of fine fibres, gathered in fields.
+    vec2 q = mat2(0.91, 0.41, -0.41, 0.91) * p + 1.1 * drift;
+    float field = layered_noise(p * 0.45 + 13.0), fibres = layered_noise(q * vec2(1.1, 4.6) + 2.2 * drift);
+    float density = 0.55 * field + 0.30 * fibres + 0.15 * layered_noise(q * vec2(7.0, 19.0));
+    float cover = smoothstep(0.70 - 0.45 * air.y, 0.92 - 0.30 * air.y, density) * smoothstep(0.0, 0.25, d.y) * 0.8;
     float nu = max(dot(d, to_sun.xyz), 0.0);
     vec3 cloud = sky_light.rgb * 0.30 + sun_light.rgb * (0.045 + 0.10 * pow(nu, 8.0));
     light = mix(light, cloud, cover);
@@ -422,7 +448,7 @@ void main() {
   vec3 d = normalize(parallel ? ray_forward.xyz : ray_forward.xyz + across);
   bool mirrored = forward.w > 0.5, land = over_height.w > 0.5;
   // The picture's sky is printed lighter than it is, as with a graduated filter on the land.
-  vec3 light = d.y >= 0.0 ? sky(d) * 1.25 : haze_colour(d);
+  vec3 light = d.y >= 0.0 ? sky(d) * 1.1 : haze_colour(d);
 
   // Plain land to the horizon; the mirrored pass looks up only.
   float t = 1e9;
@@ -433,10 +459,23 @@ void main() {
     float fields = layered_noise(world.xz / 310.0 + 5.0) - 0.5;
     vec3 albedo = base_factor.rgb * (maps.x > 0.5 ? ground_texture(colour_map, world.xz * base_factor.a) : vec3(1.0));
     albedo *= mix(vec3(1.0), ground_patches(world.xz), exp(-t / 300.0)) * (1.0 + 0.5 * fields * exp(-t / 3000.0));
-    float lit = sunlit(p, vec3(0.0, 1.0, 0.0), 0.2);
+    // Shadows fall on it as on the site's edge next to it, so that they go on unbroken.
+    vec3 edge = vec3(p.x, max(p.y, bed_height(world.xz) - eye.y + 0.1), p.z);
+    float lit = sunlit(edge, vec3(0.0, 1.0, 0.0), 0.14);
     float open = mix(0.36, 1.0, open_sky(world));
     light = albedo / pi * (sun_light.rgb * (lit * max(to_sun.y, 0.0)) + sky_light.rgb * open);
     light = through_air(light, d, t);
+    // A river flows on beyond the site.
+    float down = eye.y + origin.y - water.x;
+    if (water.y > 0.5 && down > 0.0) {
+      float far = down / -d.y;
+      vec3 q = origin + d * far;
+      if (bed_height(q.xz + eye.xz) < water.x) {
+        float pixel_m = far * 2.0 * lens.y / target.y / max(-d.y, 0.02);
+        vec4 seen = water_light(q, -d, far, pixel_m);
+        light = mix(light, seen.rgb, seen.a);
+      }
+    }
   }
 
   // Woods beyond the site, two belts deep.
@@ -451,7 +490,10 @@ void main() {
       light = mix(light, through_air(crowns, d, far_m * 1.3), fill);
     }
   }
-  out_colour = vec4(encoded(light), 1.0);
+  // Half a step of noise keeps the even sky from breaking into bands of 8 bits.
+  vec3 shown = encoded(light);
+  if (air.w > 0.5) shown += pow(shown, vec3(0.55)) * ((hash(ivec2(gl_FragCoord.xy + target.zw)) - 0.5) * 2.2 / 255.0);
+  out_colour = vec4(shown, 1.0);
 }
 )";
 
@@ -556,10 +598,11 @@ Result<Programs> Programs::make() {
     std::string vertex, fragment;
   };
   const Source sources[] = {{&Programs::solid, "solid", vertex, fragment + kSolidMain},
+                            {&Programs::leaf_cover, "leaf cover", vertex, frame + kLeafCover},
                             {&Programs::leaf, "leaf", vertex, fragment + kLeafMain},
                             {&Programs::ground, "ground", vertex, fragment + kGroundMain},
-                            {&Programs::water, "water", vertex, fragment + kWaterMain},
-                            {&Programs::sky, "sky", frame + kSkyVertex, shared + kSkyFragment},
+                            {&Programs::water, "water", vertex, fragment + kWater + kWaterMain},
+                            {&Programs::sky, "sky", frame + kSkyVertex, shared + kWater + kSkyFragment},
                             {&Programs::shadow_solid, "shadow", shadow, kShadowSolid},
                             {&Programs::shadow_leaf, "leaf shadow", shadow, kShadowLeaf}};
   for (const Source& source : sources) {

@@ -36,7 +36,8 @@ struct FrameBlock {
   Vec4 over_height;  ///< base, 1 / scale, height of the land around, 1 if that land is drawn
   Vec4 land_albedo;  ///< w: metres to the woods around
   Vec4 water;        ///< level, 1 if there is any, 1 if `mirror` holds the mirrored scene, 0
-  Vec4 target;       ///< width and height of the target in pixels, pixels per metre at depth 1, 0
+  Vec4 target;       ///< width and height of the whole picture in pixels, then where this tile begins in it
+  Vec4 lens;         ///< half width and half height of the whole picture at depth 1
   Vec4 shading;      ///< x: 0 natural, 1 flat, 2 silhouette; y: samples
   Vec4 clip;         ///< plane, relative: keeps dot(plane, (p, 1)) >= 0
 };
@@ -69,7 +70,7 @@ enum TextureUnit : GLint { kUnitColour, kUnitNormal, kUnitShadow, kUnitSky, kUni
 
 /// The renderer's programs.
 struct Programs {
-  Program solid, leaf, ground, water, sky, shadow_solid, shadow_leaf;
+  Program solid, leaf_cover, leaf, ground, water, sky, shadow_solid, shadow_leaf;
 
   static Result<Programs> make();
 };

@@ -48,8 +48,11 @@ struct View {
   bool sky = true;                     ///< false: `background` is drawn where nothing stands; light stays the same
   Vec3 background{1.0f};               ///< linear
   Shading shading = Shading::natural;
-  int samples = 4;      ///< per pixel, 1-16; capped by what the driver offers (llvmpipe: 4)
-  int supersample = 1;  ///< drawn this many times wider and higher and averaged, 1-4: slower, calmer fine twigs
+  /// The picture is drawn this many times wider and higher and averaged, 1-4: calmer twigs and leaves. Windows take 1.
+  int supersample = 2;
+  /// Samples per pixel, 1-16, capped by what the driver offers (llvmpipe: 4). 0: 4, but 1 where software draws a
+  /// supersampled picture; there samples cost as much as pixels and show less.
+  int samples = 0;
   Look look;
 };
 
