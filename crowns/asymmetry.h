@@ -16,7 +16,9 @@
 // 1/64
 #pragma once
 
+#include <concepts>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "core/parameter.h"
@@ -33,8 +35,9 @@ struct AsymmetryOptions {
   float asymmetry_max = 1.0f;
 };
 
-template <class Parameters, class Visitor>
-void describe_asymmetry(Parameters& p, Visitor& visit) {
+template <class P, class Visitor>
+requires std::same_as<std::remove_const_t<P>, AsymmetryOptions>
+void describe(P& p, Visitor& visit) {
   visit(Real{"area_weight", "", 0, 10, "Weight of a neighbour's crown area in its pressure"}, p.area_weight);
   visit(Real{"distance_weight", "", 0, 10, "Weight of a neighbour's nearness in its pressure"}, p.distance_weight);
   visit(Real{"radius_factor", "", 0.1, 10, "Trees nearer than this many crown widths (of the larger) are neighbours"},

@@ -25,11 +25,13 @@
 // Later     owners below kFree are kept for obstacles and trees that are already there
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/parameter.h"
@@ -71,8 +73,9 @@ struct SpaceOptions {
   bool keep_ticks = false;  ///< keep arrival times too (8 bytes a voxel), for comparisons
 };
 
-template <class Parameters, class Visitor>
-void describe_space(Parameters& p, Visitor& visit) {
+template <class P, class Visitor>
+requires std::same_as<std::remove_const_t<P>, SpaceOptions>
+void describe(P& p, Visitor& visit) {
   visit(Real{"voxel_m", "m", 0.02, 20, "Horizontal edge of a voxel"}, p.voxel_m);
   visit(Real{"layer_m", "m", 0.05, 20, "Height of a layer of voxels"}, p.layer_m);
   visit(Real{"speed_exponent", "", 0, 2, "How a front's speed follows the projected crown area; 0 divides as Voronoi"},

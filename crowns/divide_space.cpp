@@ -107,7 +107,7 @@ class SpaceBuilder {
  private:
   Result<void> check() const {
     RangeCheck range;
-    describe_space(options_, range);
+    describe(options_, range);
     if (!range.problem.empty()) return Error{"crown space: " + range.problem};
     for (const Claimant& t : trees_)
       if (const std::string why = unusable(t); !why.empty())

@@ -5,6 +5,9 @@
 // Units     metres at scale 1; an instance multiplies heights by its S_h and widths (the trunk's too) by its S_w
 #pragma once
 
+#include <concepts>
+#include <type_traits>
+
 #include "core/parameter.h"
 #include "core/scalar.h"
 
@@ -24,8 +27,9 @@ struct RepresentativeShape {
   }
 };
 
-template <class Parameters, class Visitor>
-void describe(Parameters& p, Visitor& visit) {
+template <class P, class Visitor>
+requires std::same_as<std::remove_const_t<P>, RepresentativeShape>
+void describe(P& p, Visitor& visit) {
   visit(Real{"trunk_width_m", "m", 0.01, 5, "Trunk diameter of a mature free-standing tree"}, p.trunk_width_m);
   visit(Real{"trunk_height_m", "m", 0, 60, "Height of the crown base of a free-standing tree"}, p.trunk_height_m);
   visit(Real{"crown_width_m", "m", 0.2, 60, "Crown diameter of a mature free-standing tree"}, p.crown_width_m);

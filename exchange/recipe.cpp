@@ -29,7 +29,7 @@ class Reader {
     for (TomlTable& table : root.tables("interaction")) read_interaction(table);
     for (TomlTable& table : root.tables("planting")) read_planting(table);
     if (auto table = root.table("space")) read_space(*table);
-    if (auto table = root.table("asymmetry")) describe_asymmetry(recipe_.document.asymmetry, *table), table->finish();
+    if (auto table = root.table("asymmetry")) describe(recipe_.document.asymmetry, *table), table->finish();
     for (TomlTable& table : root.tables("camera")) read_camera(table);
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("export")) {
@@ -277,7 +277,7 @@ class Reader {
   }
 
   void read_space(TomlTable& table) {
-    describe_space(recipe_.document.space, table);
+    describe(recipe_.document.space, table);
     if (auto layers = table.integer("layers", 1, 10000)) {
       recipe_.layers = static_cast<int>(*layers);
       if (table.has("layer_m")) table.error("layers", "give either layers or layer_m");
