@@ -262,7 +262,8 @@ TEST_F(RendererTest, SupersamplingAveragesAndDoesNotShift) {
       }
     return Vec2(sum) / sum.z;
   };
-  EXPECT_LT(glm::length(middle(plain) - middle(fine)), 0.05f);
+  // Four samples place an edge to a quarter of a pixel; a fine row too much or too few would shift by a third.
+  EXPECT_LT(glm::length(middle(plain) - middle(fine)), 0.25f);
 }
 
 TEST_F(RendererTest, WithoutSkyTheBackgroundIsTransparent) {
