@@ -69,9 +69,15 @@ vec3 clear_sky(vec3 direction) {
   return texture(sky_map, vec2(sqrt(azimuth / pi), sqrt(elevation * 2.0 / pi))).rgb * gain.rgb;
 }
 
+// Brightness that film and eye still tell apart around the sun: light above `knee` is pressed below knee + room.
+vec3 pressed(vec3 light, float knee, float room) {
+  float bright = dot(light, vec3(0.2126, 0.7152, 0.0722)), over = max(bright - knee, 0.0);
+  return light * ((min(bright, knee) + over / (1.0 + over / room)) / max(bright, 1e-5));
+}
+
 // Colour of distant air in a direction.
 vec3 haze_colour(vec3 direction) {
-  return clear_sky(normalize(vec3(direction.x, max(direction.y, 0.03) , direction.z)));
+  return pressed(clear_sky(normalize(vec3(direction.x, max(direction.y, 0.03), direction.z))), 0.35, 0.5);
 }
 vec3 through_air(vec3 colour, vec3 direction, float distance_m) {
   return mix(haze_colour(direction), colour, exp(-distance_m * air.x));
@@ -166,7 +172,10 @@ void main() {
 const char* const kGround = R"(
 // A tiling texture at two scales, turned against each other so that it does not seem to repeat.
 vec3 ground_texture(sampler2D map, vec2 uv) {
-  return mix(texture(map, uv).rgb, texture(map, mat2(0.259, 0.143, -0.143, 0.259) * uv + 0.37).rgb, 0.45);
+  vec3 seen = mix(texture(map, uv).rgb, texture(map, mat2(0.259, 0.143, -0.143, 0.259) * uv + 0.37).rgb, 0.45);
+  // From far away a field of tiles would show as a grid: its mean takes over.
+  float tiles_per_pixel = max(length(dFdx(uv)), length(dFdy(uv)));
+  return mix(seen, textureLod(map, uv, 16.0).rgb, 0.9 * smoothstep(0.02, 0.15, tiles_per_pixel));
 }
 // Ground is never even: drier and lusher patches over many metres.
 vec3 ground_patches(vec2 p) {
@@ -271,7 +280,7 @@ void main() {
   float nl = dot(n, to_sun.xyz);
   vec3 sunward = dot(surface, to_sun.xyz) > 0.0 ? surface : -surface;
   float lit = sunlit(v_relative, sunward, 0.12);
-  float open = mix(0.34, 1.0, open_sky(v_relative + eye.xyz));
+  float open = mix(0.48, 1.0, open_sky(v_relative + eye.xyz));
   // Light that comes through a leaf is yellower: chlorophyll lets green and some red pass.
   vec3 through = pow(albedo, vec3(0.9)) * vec3(1.05, 1.0, 0.6) * material.z;
   vec3 kept = albedo * (1.0 - 0.35 * material.z);
@@ -279,7 +288,7 @@ void main() {
   light += open * (kept * ambient_light(n) + 0.6 * through * ambient_light(-n));
   light /= pi;
   // A wax shine, gone where leaves become too small to be seen one by one.
-  if (nl > 0.0) light += sun_light.rgb * (lit * 0.35 * gloss(n, v, max(material.x, 0.45)) * exp(-distance_m / 40.0));
+  if (nl > 0.0) light += sun_light.rgb * (lit * 0.35 * min(gloss(n, v, max(material.x, 0.45)), 0.12) * exp(-distance_m / 40.0));
   out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
 }
 )";
@@ -371,7 +380,7 @@ vec2 at = (gl_FragCoord.xy + target.zw) / target.xy + vec2(side.x, -side.y) * sh
   vec3 h = normalize(v + to_sun.xyz);
   float a2 = 0.0009 + 2.0 * lost;
   float nh = max(dot(n, h), 0.0), d = nh * nh * (a2 - 1.0) + 1.0;
-  vec3 glint = sun_light.rgb * (lit * min(fresnel * a2 / (pi * d * d) * 0.25 / nv, 3.0));
+  vec3 glint = sun_light.rgb * (lit * min(fresnel * a2 / (pi * d * d) * 0.25 / nv, 2.0));
 
   float seen = dot(passed, vec3(0.35, 0.45, 0.20)) * (1.0 - fresnel);
   vec3 light = fresnel * mirrored + (1.0 - fresnel) * (vec3(1.0) - passed) * murk + glint;
@@ -448,7 +457,7 @@ void main() {
   vec3 d = normalize(parallel ? ray_forward.xyz : ray_forward.xyz + across);
   bool mirrored = forward.w > 0.5, land = over_height.w > 0.5;
   // The picture's sky is printed lighter than it is, as with a graduated filter on the land.
-  vec3 light = d.y >= 0.0 ? sky(d) * 1.1 : haze_colour(d);
+  vec3 light = d.y >= 0.0 ? pressed(sky(d) * 1.1, 0.7, 2.0) : haze_colour(d);
 
   // Plain land to the horizon; the mirrored pass looks up only.
   float t = 1e9;
@@ -487,6 +496,8 @@ void main() {
     for (int belt = 1; belt >= 0; --belt) {
       float far_m = belt == 1 ? near_m * 2.6 : near_m;
       float fill = t > far_m ? woods(heading, climb, far_m, belt == 1 ? 14.0 : 3.0, belt == 1 ? 70.0 : 24.0, 3.0 + 20.0 * float(belt)) : 0.0;
+      // They are painted standing: seen from high above they would be a wall, so they are left out there.
+      fill *= 1.0 - smoothstep(0.02, 0.05, (eye.y - over_height.z) / far_m);
       light = mix(light, through_air(crowns, d, far_m * 1.3), fill);
     }
   }

@@ -22,7 +22,7 @@ enum class Shading {
 /// Light and lens: the part of a view that a designer tunes.
 struct Look {
   float exposure_ev = 0.0f;         ///< added to the automatic exposure
-  float haze_distance_m = 3000.0f;  ///< air that hides 63 % of what is this far away
+  float haze_distance_m = 6000.0f;  ///< air that hides 63 % of what is this far away
   float turbidity = 2.2f;           ///< dust in the air
   float clouds = 0.35f;             ///< cover of thin high clouds
   float ripples = 1.0f;             ///< height of the water's ripples
