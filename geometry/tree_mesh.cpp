@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "geometry/branch_mesh.h"
 #include "geometry/thickest_path.h"
@@ -16,11 +17,33 @@ constexpr double kWoodShare = 0.4;
 constexpr double kMostLeavesInOne = 2.5;
 constexpr double kMostClustersInOne = 3.0;
 
+// Leaves keep to the wood that is drawn when at least this share of their area grows there. On a coarser tree, where leaves
+// hide that their twigs are missing, they stay where they grew.
+constexpr double kLeastOnDrawnWood = 0.4;
+
 // Cards of far trees stand for so many twig clusters.
 constexpr std::size_t kClustersInACard = 6;
 
 std::size_t cards_wanted(FoliageLevel level, std::size_t sites) {
   return level == FoliageLevel::cards ? (sites + kClustersInACard - 1) / kClustersInACard : sites;
+}
+
+// Leaves out the sites on branches that the plan leaves out; the others grow by their area.
+void keep_to_drawn_wood(std::vector<LeafSite>& sites, const ThickestPaths& paths, const BranchPlan& plan,
+                        std::size_t internodes) {
+  std::vector<std::uint8_t> drawn(internodes, 0);
+  for (std::size_t p = 0; p < paths.paths.size(); ++p)
+    for (std::uint32_t i : paths.of(paths.paths[p])) drawn[i] = plan.keep[p];
+  const auto area = [](const LeafSite& site) { return static_cast<double>(site.size) * static_cast<double>(site.size); };
+  double all = 0.0, on_drawn = 0.0;
+  for (const LeafSite& site : sites) {
+    all += area(site);
+    if (drawn[site.internode]) on_drawn += area(site);
+  }
+  if (on_drawn < kLeastOnDrawnWood * all) return;
+  std::erase_if(sites, [&](const LeafSite& site) { return !drawn[site.internode]; });
+  const auto growth = static_cast<float>(std::sqrt(all / on_drawn));
+  for (LeafSite& site : sites) site.size *= growth;
 }
 
 }  // namespace
@@ -59,7 +82,8 @@ TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float
       cards = cards_wanted(level, sites.size());
     }
     if (level == FoliageLevel::clusters && crowded(kMostClustersInOne)) level = FoliageLevel::cards;
-    cards = std::min(cards, rest / triangles_per_site(foliage, level));
+    if (level != FoliageLevel::cards && !sites.empty()) keep_to_drawn_wood(sites, paths, plan, skeleton.size());
+    cards = std::min({cards, sites.size(), rest / triangles_per_site(foliage, level)});
   }
   return {mesh_branches(curves, plan, look, options.seed, options.key), mesh_foliage(input, level, sites, cards)};
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/hash.h"
@@ -23,6 +24,10 @@ constexpr std::size_t kMostGroundTriangles = 200'000;
 constexpr std::uint64_t kTextureSeed = 1;
 // The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.
 constexpr float kNearest_m = 8.0f;
+// Half diagonal over half height of a 16:9 picture.
+constexpr float kPictureDiagonal = 2.04f;
+// A tree behind the camera still throws shadows and is seen when the viewer turns.
+constexpr float kOutOfPicture = 0.35f;
 
 std::shared_ptr<const Image> shared(Image image) { return std::make_shared<const Image>(std::move(image)); }
 
@@ -96,10 +101,23 @@ std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
   };
 }
 
-float camera_distance(const Document& document, const Vec3& at) {
-  float nearest = std::numeric_limits<float>::max();
-  for (const Camera& camera : document.cameras) nearest = std::min(nearest, glm::length(camera.eye - at));
-  return document.cameras.empty() ? 1.0f : std::max(nearest, kNearest_m);
+// How large a tree appears to the camera that shows it largest: height over distance, less where it is out of the picture.
+float apparent_size(const Document& document, const Vec3& base, float height) {
+  if (document.cameras.empty()) return height;
+  const Vec3 middle = base + 0.5f * height * kUp;
+  float largest = 0.0f;
+  for (const Camera& camera : document.cameras) {
+    const Vec3 to = middle - camera.eye, view = camera.target - camera.eye;
+    const float distance = std::max(glm::length(to), kNearest_m), radius = 0.5f * height;
+    // The cone around the picture's corners, widened by the tree's own size.
+    const SinCos half = sin_cos(0.5f * radians(camera.vertical_fov_deg));
+    const float corner = kPictureDiagonal * half.sin / half.cos;
+    const float along = glm::dot(to, view) / std::max(glm::length(view), 1e-3f);
+    const float aside = std::sqrt(std::max(0.0f, glm::dot(to, to) - along * along));
+    const bool shown = along > -radius && aside < corner * std::max(along, 0.0f) + 2.0f * radius;
+    largest = std::max(largest, (shown ? 1.0f : kOutOfPicture) * height / distance);
+  }
+  return largest;
 }
 
 Extras tree_extras(const Document& document, const Tree& tree, const GrownTree& grown) {
@@ -204,8 +222,8 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     need[i] =
         geometry::estimate_triangles(*grown.skeleton, radii[i], species.look, species.foliage, mesh_options[i]) * 3 / 2;
     const Vec3 base = to_world(trees[i].at, document.terrain->ground(trees[i].at));
-    const float apparent = grown.measures.height_m / camera_distance(document, base);
-    weight[i] = apparent * apparent;
+    const float apparent = apparent_size(document, base, grown.measures.height_m);
+    weight[i] = apparent * apparent * apparent;
   });
   std::vector<std::size_t> budget(trees.size(), 0);
   if (options.max_triangles > 0)

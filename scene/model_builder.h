@@ -1,9 +1,9 @@
 // Model builder: meshes, materials and cameras of a grown scene, within a triangle budget.
 //
 // Model     ground and water take at most kGroundShare of the budget, the trees share the rest: each tree asks for what
-//           its full mesh needs, and when that is too much every tree gets c * w, w = (height / distance to the nearest
-//           camera of the recipe)^2 (or height^2 without cameras), never more than it asks for, c such that the sum is
-//           the budget
+//           its full mesh needs, and when that is too much every tree gets c * w^3, w the largest apparent size
+//           (height / distance) to any camera of the recipe, less out of its picture, or the height without cameras;
+//           never more than it asks for, c such that the sum is the budget
 // Units     metres, world frame; extras in metres, years and degrees
 // Holds     the same bits for any number of threads
 // Errors    cancelled (kind cannot_finish)
