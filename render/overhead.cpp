@@ -153,6 +153,9 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
       const scene::Material& material = model.materials[part.material];
       const Vec3 texture = mean_colour(material), factor(material.base_factor);
       const Box3 box = mesh.bounds();
+      const Vec2 corner(node.translation.x, node.translation.z);
+      map.ground_box.add(Vec2(box.low.x, box.low.z) + corner);
+      map.ground_box.add(Vec2(box.high.x, box.high.z) + corner);
       const Vec3 rim = kEdgeShare * box.size();
       for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;

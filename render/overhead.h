@@ -24,6 +24,7 @@ struct Overhead {
   std::vector<Vec4> cover;    ///< mean and mean square of the height over the small disc, then over the large one
   std::vector<float> ground;  ///< height of the ground, metres; around it that of its nearest edge
 
+  Box2 ground_box;                     ///< world x and z that the ground covers; empty without ground
   float land_height = 0.0f;            ///< of plain land around the site: median of the ground along the site's edge
   Vec3 ground_albedo{0.16f};           ///< mean of the ground's base colour, linear
   Vec3 land_tint{0.16f};               ///< of plain land around: what the ground's edge multiplies its texture by

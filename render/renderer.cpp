@@ -331,7 +331,8 @@ FrameBlock Renderer::State::light_block(const View& view, const ViewVolume& volu
   block.over_area = Vec4(over.low, 1.0f / over.size());
   block.over_height = Vec4(over.base, 1 / over.scale, over.land_height, view.look.surroundings ? 1 : 0);
   const float site = glm::length(over.size());
-  block.land_albedo = Vec4(over.ground_albedo, std::max(kWoodsM, 1.2f * site));
+  block.land = Vec4(over.land_tint, std::max(kWoodsM, 1.2f * site));
+  block.ground_box = Vec4(over.ground_box.low, over.ground_box.high);
   block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_level_m ? 1 : 0, 0, 0);
   block.lens = Vec4(volume.half_width, volume.half_height, 0, 0);
   block.clip = Vec4(0, 0, 0, 1);
@@ -517,9 +518,7 @@ void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volu
     const GLuint texture = model.ground_material ? model.materials[*model.ground_material].base_colour : 0;
     glActiveTexture(GL_TEXTURE0 + kUnitColour);
     glBindTexture(GL_TEXTURE_2D, texture);
-    const Vec3& tint = model.overhead.land_tint;
-    glUniform4f(programs.sky.uniform("base_factor"), tint.r, tint.g, tint.b, 1 / kLandTileM);
-    glUniform2f(programs.sky.uniform("maps"), texture ? 1.0f : 0.0f, 0.0f);
+    glUniform2f(programs.sky.uniform("maps"), texture ? 1.0f : 0.0f, 1 / kLandTileM);
     glBindVertexArray(nothing.name());
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -17,7 +17,7 @@ layout(std140) uniform Frame {
   vec4 to_sun, gain, sun_light, sky_light;
   vec4 ambient[9];
   vec4 air, tone;
-  vec4 over_area, over_height, land_albedo;
+  vec4 over_area, over_height, land, ground_box;
   vec4 water, target, lens, shading, clip;
 };
 )";
@@ -300,6 +300,13 @@ void main() {
   vec3 albedo = texel * base_factor.rgb * v_colour;
   if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
   if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
+  // The site's edge fades into the land around along no straight line.
+  if (over_height.w > 0.5) {
+    vec2 inside = min(world.xz - ground_box.xy, ground_box.zw - world.xz);
+    float rim = min(inside.x, inside.y) + 3.0 * (layered_noise(world.xz / 2.1 + 7.0) - 0.5);
+    float shore = water.y > 0.5 ? smoothstep(0.1, 0.6, world.y - water.x) : 1.0;
+    albedo = mix(albedo, texel * land.rgb, (1.0 - smoothstep(0.3, 4.0, rim)) * shore);
+  }
   albedo *= ground_patches(world.xz);
   // Soaked at the water's edge.
   float wet = water.y > 0.5 ? 1.0 - smoothstep(0.02, 0.30, world.y - water.x) : 0.0;
@@ -417,8 +424,7 @@ void main() {
 const char* const kSkyFragment = R"(
 in vec2 v_screen;
 uniform sampler2D colour_map;
-uniform vec4 base_factor;
-uniform vec2 maps;
+uniform vec2 maps;  // 1 if the ground has a texture, tiles per metre
 out vec4 out_colour;
 
 vec3 sky(vec3 d) {
@@ -455,18 +461,18 @@ void main() {
   bool parallel = view_point.w > 0.5;
   vec3 origin = parallel ? view_point.xyz + across : vec3(0.0);
   vec3 d = normalize(parallel ? ray_forward.xyz : ray_forward.xyz + across);
-  bool mirrored = forward.w > 0.5, land = over_height.w > 0.5;
+  bool mirrored = forward.w > 0.5, surrounded = over_height.w > 0.5;
   // The picture's sky is printed lighter than it is, as with a graduated filter on the land.
   vec3 light = d.y >= 0.0 ? pressed(sky(d) * 1.1, 0.7, 2.0) : haze_colour(d);
 
   // Plain land to the horizon; the mirrored pass looks up only.
   float t = 1e9;
-  if (land && !mirrored && d.y < 0.0) {
+  if (surrounded && !mirrored && d.y < 0.0) {
     float above = origin.y + eye.y - over_height.z;
     t = above > 0.0 ? above / -d.y : 0.0;
     vec3 p = origin + d * t, world = p + eye.xyz;
     float fields = layered_noise(world.xz / 310.0 + 5.0) - 0.5;
-    vec3 albedo = base_factor.rgb * (maps.x > 0.5 ? ground_texture(colour_map, world.xz * base_factor.a) : vec3(1.0));
+    vec3 albedo = land.rgb * (maps.x > 0.5 ? ground_texture(colour_map, world.xz * maps.y) : vec3(1.0));
     albedo *= mix(vec3(1.0), ground_patches(world.xz), exp(-t / 300.0)) * (1.0 + 0.5 * fields * exp(-t / 3000.0));
     // Shadows fall on it as on the site's edge next to it, so that they go on unbroken.
     vec3 edge = vec3(p.x, max(p.y, bed_height(world.xz) - eye.y + 0.1), p.z);
@@ -488,8 +494,8 @@ void main() {
   }
 
   // Woods beyond the site, two belts deep.
-  float level = length(d.xz), near_m = land_albedo.w;
-  if (land && !parallel && level > 0.2) {
+  float level = length(d.xz), near_m = land.w;
+  if (surrounded && !parallel && level > 0.2) {
     vec2 heading = d.xz / level;
     float climb = d.y / level;
     vec3 crowns = vec3(0.060, 0.078, 0.036) / pi * (sun_light.rgb * (0.45 + 0.25 * dot(-heading, to_sun.xz)) + sky_light.rgb);

@@ -34,7 +34,8 @@ struct FrameBlock {
   Vec4 tone;         ///< contrast, shoulder, b, c of the tone curve
   Vec4 over_area;    ///< low x, low z, 1 / size x, 1 / size z of the overhead maps
   Vec4 over_height;  ///< base, 1 / scale, height of the land around, 1 if that land is drawn
-  Vec4 land_albedo;  ///< w: metres to the woods around
+  Vec4 land;         ///< tint of plain land around the site, metres to the woods around
+  Vec4 ground_box;   ///< world low x, low z, high x, high z of the ground
   Vec4 water;        ///< level, 1 if there is any, 1 if `mirror` holds the mirrored scene, 0
   Vec4 target;       ///< width and height of the whole picture in pixels, then where this tile begins in it
   Vec4 lens;         ///< half width and half height of the whole picture at depth 1
