@@ -17,8 +17,8 @@ constexpr double kWoodShare = 0.4;
 constexpr double kMostLeavesInOne = 2.5;
 constexpr double kMostClustersInOne = 3.0;
 
-// Leaves keep to the wood that is drawn when at least this share of their area grows there. On a coarser tree, where leaves
-// hide that their twigs are missing, they stay where they grew.
+// Leaves keep to the wood that is drawn when at least this share of their area grows there. On a coarser tree, where
+// leaves hide that their twigs are missing, they stay where they grew.
 constexpr double kLeastOnDrawnWood = 0.4;
 
 // Cards of far trees stand for so many twig clusters.
@@ -34,7 +34,9 @@ void keep_to_drawn_wood(std::vector<LeafSite>& sites, const ThickestPaths& paths
   std::vector<std::uint8_t> drawn(internodes, 0);
   for (std::size_t p = 0; p < paths.paths.size(); ++p)
     for (std::uint32_t i : paths.of(paths.paths[p])) drawn[i] = plan.keep[p];
-  const auto area = [](const LeafSite& site) { return static_cast<double>(site.size) * static_cast<double>(site.size); };
+  const auto area = [](const LeafSite& site) {
+    return static_cast<double>(site.size) * static_cast<double>(site.size);
+  };
   double all = 0.0, on_drawn = 0.0;
   for (const LeafSite& site : sites) {
     all += area(site);
@@ -85,7 +87,8 @@ TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float
     if (level != FoliageLevel::cards && !sites.empty()) keep_to_drawn_wood(sites, paths, plan, skeleton.size());
     cards = std::min({cards, sites.size(), rest / triangles_per_site(foliage, level)});
   }
-  return {mesh_branches(curves, plan, look, options.seed, options.key), mesh_foliage(input, level, sites, cards)};
+  return {mesh_branches(curves, plan, look, options.seed, options.key), mesh_foliage(input, level, sites, cards),
+          level};
 }
 
 std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const float> radius, const Look& look,

@@ -34,6 +34,7 @@ struct MeshOptions {
 struct TreeMesh {
   TriangleMesh branches;  ///< to be drawn with the species' bark
   TriangleMesh leaves;    ///< to be drawn with the species' leaf atlas of the season, double sided, alpha tested
+  FoliageLevel foliage = FoliageLevel::clusters;  ///< what the leaves became; cards show the foliage mass instead
 
   std::size_t triangles() const { return branches.triangles() + leaves.triangles(); }
 };

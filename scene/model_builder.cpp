@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "geometry/bark_texture.h"
+#include "geometry/foliage_mass.h"
 #include "geometry/ground_mesh.h"
 #include "geometry/ground_texture.h"
 #include "geometry/leaf_atlas.h"
@@ -19,6 +20,8 @@ namespace bosquet::scene {
 namespace {
 
 constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
+// Grass thins out under a crown, but a single tree does not bare the ground; where crowns overlap their shade adds up.
+constexpr float kMostShade = 0.5f;
 constexpr std::size_t kMostGroundTriangles = 200'000;
 // Seed of the textures: a species looks the same in every document.
 constexpr std::uint64_t kTextureSeed = 1;
@@ -26,48 +29,66 @@ constexpr std::uint64_t kTextureSeed = 1;
 constexpr float kNearest_m = 8.0f;
 // Half diagonal over half height of a 16:9 picture.
 constexpr float kPictureDiagonal = 2.04f;
+// Share of the budget that goes to all trees alike, so that one near tree does not starve a forest.
+constexpr double kEvenShare = 0.35;
 // A tree behind the camera still throws shadows and is seen when the viewer turns.
 constexpr float kOutOfPicture = 0.35f;
 
 std::shared_ptr<const Image> shared(Image image) { return std::make_shared<const Image>(std::move(image)); }
 
-// Materials 2s and 2s + 1 are bark and leaf of species s; then ground and water.
+// Materials of the model, in this order: of each species in turn, then of the site.
+enum : std::size_t { kBark, kLeaf, kMass, kOfSpecies };
+std::size_t material_of(std::size_t species, std::size_t part) { return kOfSpecies * species + part; }
+std::size_t ground_material(const Document& document) { return kOfSpecies * document.species.size(); }
+std::size_t water_material(const Document& document) { return ground_material(document) + 1; }
+
+Material leaf_material(std::string name, const Species& species, geometry::LeafAtlas atlas) {
+  Material material;
+  material.name = std::move(name);
+  material.surface = Surface::leaf;
+  material.base_colour = shared(std::move(atlas.base_colour));
+  if (!atlas.normal.empty()) material.normal = shared(std::move(atlas.normal));
+  material.roughness = 0.7f;
+  material.translucency = species.look.leaf.translucency;
+  material.mask = material.double_sided = true;
+  return material;
+}
+
 std::vector<Material> make_materials(const Document& document, geometry::Season season) {
   const std::size_t n = document.species.size();
-  std::vector<Material> materials(2 * n + 2);
+  std::vector<Material> materials(kOfSpecies * n + 2);
+  std::vector<bool> used(n, false);
+  for (const Tree& tree : *document.trees) used[tree.species] = true;
   parallel_for(2 * n + 1, [&](std::size_t job) {
-    Material& material = materials[job];
-    if (job == 2 * n) {
+    const std::size_t s = job / 2;
+    if (s == n) {
       auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
-      material = {.name = "ground",
-                  .surface = Surface::ground,
-                  .base_colour = shared(std::move(textures.base_colour)),
-                  .normal = shared(std::move(textures.normal))};
+      Material& ground = materials[ground_material(document)];
+      ground.name = "ground";
+      ground.surface = Surface::ground;
+      ground.base_colour = shared(std::move(textures.base_colour));
+      ground.normal = shared(std::move(textures.normal));
       return;
     }
-    const Species& species = *document.species[job / 2];
+    if (!used[s]) return;
+    const Species& species = *document.species[s];
     const std::uint64_t seed = kTextureSeed + hash_text(species.name);
     if (job % 2 == 0) {
       auto textures = geometry::make_bark(species.look, seed, kBarkPixels);
-      material = {.name = species.name + "-bark",
-                  .surface = Surface::bark,
-                  .base_colour = shared(std::move(textures.base_colour)),
-                  .normal = shared(std::move(textures.normal)),
-                  .roughness = 0.9f};
+      Material& bark = materials[material_of(s, kBark)];
+      bark.name = species.name + "-bark";
+      bark.surface = Surface::bark;
+      bark.base_colour = shared(std::move(textures.base_colour));
+      bark.normal = shared(std::move(textures.normal));
+      bark.roughness = 0.9f;
     } else {
-      auto atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
-      material = {.name = species.name + "-leaf",
-                  .surface = Surface::leaf,
-                  .base_colour = shared(std::move(atlas.base_colour)),
-                  .normal = shared(std::move(atlas.normal)),
-                  .roughness = 0.7f,
-                  .alpha_cutoff = 0.5f,
-                  .translucency = species.look.leaf.translucency,
-                  .mask = true,
-                  .double_sided = true};
+      geometry::LeafAtlas atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
+      materials[material_of(s, kMass)] =
+          leaf_material(species.name + "-foliage", species, geometry::make_foliage_mass(atlas, seed));
+      materials[material_of(s, kLeaf)] = leaf_material(species.name + "-leaf", species, std::move(atlas));
     }
   });
-  Material& water = materials[2 * n + 1];
+  Material& water = materials[water_material(document)];
   water.name = "water";
   water.surface = Surface::water;
   water.base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
@@ -92,7 +113,7 @@ std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
         const float d = glm::length((Vec2(i, j) + 0.5f) * cell - at) / radius;
         float& c =
             (*cover)[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(i)];
-        c = std::max(c, std::clamp(1.3f * (1.0f - d * d), 0.0f, 1.0f));
+        c = std::min(1.0f, c + kMostShade * (1.0f - d * d));
       }
   }
   return [cover, cells, cell](Vec2 plan) {
@@ -101,7 +122,8 @@ std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
   };
 }
 
-// How large a tree appears to the camera that shows it largest: height over distance, less where it is out of the picture.
+// How large a tree appears to the camera that shows it largest: height over distance, less where it is out of the
+// picture.
 float apparent_size(const Document& document, const Vec3& base, float height) {
   if (document.cameras.empty()) return height;
   const Vec3 middle = base + 0.5f * height * kUp;
@@ -159,9 +181,10 @@ std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, con
                                        std::size_t budget) {
   const std::size_t all = std::accumulate(need.begin(), need.end(), std::size_t{0});
   if (all <= budget) return need;
+  const double even = kEvenShare * static_cast<double>(budget) / static_cast<double>(need.size());
   auto share = [&](double c, std::size_t i) {
-    return std::min(
-        need[i], std::max(geometry::kLeastTreeTriangles, static_cast<std::size_t>(c * static_cast<double>(weight[i]))));
+    const auto triangles = static_cast<std::size_t>(even + c * static_cast<double>(weight[i]));
+    return std::min(need[i], std::max(geometry::kLeastTreeTriangles, triangles));
   };
   auto sum = [&](double c) {
     std::size_t total = 0;
@@ -189,7 +212,6 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   Stopwatch watch;
   if (progress) progress->begin("textures", 0);
   model.materials = make_materials(document, options.season);
-  const std::size_t ground_material = 2 * document.species.size(), water_material = ground_material + 1;
   built.seconds["textures"] = watch.restart();
 
   geometry::GroundOptions ground_options;
@@ -202,11 +224,11 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     built.triangles += chunks[c].triangles();
     model.nodes.push_back(mesh_node(chunks.size() == 1 ? "ground" : fmt::format("ground-{}", c + 1),
-                                    std::move(chunks[c]), ground_material));
+                                    std::move(chunks[c]), ground_material(document)));
   }
   if (TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options); !water.empty()) {
     built.triangles += water.triangles();
-    model.nodes.push_back(mesh_node("water", std::move(water), water_material));
+    model.nodes.push_back(mesh_node("water", std::move(water), water_material(document)));
   }
 
   // What each tree is drawn with, and what its full mesh needs.
@@ -246,9 +268,13 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     node.translation = to_world(trees[i].at, document.terrain->ground(trees[i].at));
     node.extras = tree_extras(document, trees[i], scene.trees[i]);
     if (!mesh.branches.empty())
-      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.branches)), 2 * trees[i].species});
-    if (!mesh.leaves.empty())
-      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.leaves)), 2 * trees[i].species + 1});
+      node.parts.push_back(
+          {std::make_shared<const TriangleMesh>(std::move(mesh.branches)), material_of(trees[i].species, kBark)});
+    if (!mesh.leaves.empty()) {
+      const std::size_t part = mesh.foliage == geometry::FoliageLevel::cards ? kMass : kLeaf;
+      node.parts.push_back(
+          {std::make_shared<const TriangleMesh>(std::move(mesh.leaves)), material_of(trees[i].species, part)});
+    }
     if (progress) progress->advance();
   });
   if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");

@@ -1,9 +1,9 @@
 // Model builder: meshes, materials and cameras of a grown scene, within a triangle budget.
 //
 // Model     ground and water take at most kGroundShare of the budget, the trees share the rest: each tree asks for what
-//           its full mesh needs, and when that is too much every tree gets c * w^3, w the largest apparent size
-//           (height / distance) to any camera of the recipe, less out of its picture, or the height without cameras;
-//           never more than it asks for, c such that the sum is the budget
+//           its full mesh needs; when that is too much every tree gets a + c * w^3, never more than it asks for: a an even
+//           share of a part of the budget, w the largest apparent size (height / distance) to any camera of the recipe,
+//           less out of its picture, or the height without cameras, c such that the sum is the budget
 // Units     metres, world frame; extras in metres, years and degrees
 // Holds     the same bits for any number of threads
 // Errors    cancelled (kind cannot_finish)
@@ -35,7 +35,8 @@ struct BuiltModel {
 
 Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& options, Progress* progress);
 
-/// Triangles for each tree: min(need, c * weight) with the sum not above `budget`, and all of `need` when it fits.
+/// Triangles for each tree: min(need, even share + c * weight) with the sum not above `budget`, and all of `need` when
+/// it fits.
 std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, const std::vector<float>& weight,
                                        std::size_t budget);
 

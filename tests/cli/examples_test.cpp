@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Example{"plots/plot_30", 30, 150 * kMega}, Example{"plots/plot_100", 100, 150 * kMega},
                       Example{"plots/plot_300", 300, 150 * kMega}, Example{"lansing_woods", 2251, 400 * kMega},
                       Example{"barro_colorado", 3604, 400 * kMega}),
-    [](const auto& info) { return std::filesystem::path(info.param.name).stem().string(); });
+    [](const auto& test) { return std::filesystem::path(test.param.name).stem().string(); });
 
 }  // namespace
 }  // namespace bosquet

@@ -63,18 +63,22 @@ TEST(GrownScene, InternodesKeepToTheirTreesRegion) {
 TEST(GrownScene, SwitchingRegionsOffLetsCrownsCross) {
   const Document document = sample_document("english_oak", kPlaces, {18, 18}, 0.5f);
   const GrownScene kept = grow(document);
-  const GrownScene loose = grow(document, {.regions = false, .asymmetry = false});
-  double with = 0, without = 0;
+  GrowOptions without;
+  without.regions = without.asymmetry = false;
+  const GrownScene loose = grow(document, without);
+  double inside = 0, free = 0;
   for (std::size_t i = 0; i < kept.trees.size(); ++i)
-    with += kept.trees[i].measures.crown_diameter_m, without += loose.trees[i].measures.crown_diameter_m;
-  EXPECT_LT(with, 0.9 * without);
+    inside += kept.trees[i].measures.crown_diameter_m, free += loose.trees[i].measures.crown_diameter_m;
+  EXPECT_LT(inside, 0.9 * free);
 }
 
 TEST(GrownScene, AtAnEarlierYearTreesAreSmallerAndAtLaterOnesTaller) {
   const Document document = sample_document("norway_spruce", {{9, 9}}, {18, 18}, 1.0f);
   float last = 0;
   for (float year : {5.0f, 15.0f, 40.0f, 90.0f}) {
-    const float height = grow(document, {.year = year}).trees[0].measures.height_m;
+    GrowOptions at;
+    at.year = year;
+    const float height = grow(document, at).trees[0].measures.height_m;
     EXPECT_GT(height, last);
     last = height;
   }

@@ -20,13 +20,15 @@ TEST(DivideBudget, ABudgetThatSufficesGivesEveryTreeWhatItNeeds) {
   EXPECT_EQ(divide_budget({100, 200}, {1, 1}, 1000), (std::vector<std::size_t>{100, 200}));
 }
 
-TEST(DivideBudget, AShortBudgetIsKeptAndSharedByWeight) {
+TEST(DivideBudget, AShortBudgetIsKeptAndSharedEvenlyInPartAndThenByWeight) {
   const std::vector<std::size_t> need{100'000, 100'000, 5'000};
   const auto shares = divide_budget(need, {4, 1, 4}, 50'000);
   EXPECT_LE(std::accumulate(shares.begin(), shares.end(), std::size_t{0}), 50'000u);
   EXPECT_GE(std::accumulate(shares.begin(), shares.end(), std::size_t{0}), 49'900u);
   EXPECT_EQ(shares[2], 5'000u);
-  EXPECT_NEAR(static_cast<double>(shares[0]) / static_cast<double>(shares[1]), 4.0, 0.01);
+  // Beyond the even part, four times the weight is four times the triangles.
+  const double even = 0.35 * 50'000 / 3;
+  EXPECT_NEAR((static_cast<double>(shares[0]) - even) / (static_cast<double>(shares[1]) - even), 4.0, 0.01);
 }
 
 TEST(ModelBuilder, AModelHasANodeForEachTreeWithItsFacts) {

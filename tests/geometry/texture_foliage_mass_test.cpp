@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include "core/parallel.h"
+#include "geometry/foliage_mass.h"
+#include "tests/geometry/texture_looks.h"
+
+namespace bosquet::geometry {
+namespace {
+
+constexpr int kSide = 512;
+
+LeafAtlas oak_atlas() { return make_leaf_atlas(species_look("english_oak").leaf, Season::summer, 7, kSide); }
+
+double mean_alpha(const Image& image, int x0, int x1, int y0, int y1) {
+  double sum = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) sum += image.at(x, y)[3];
+  return sum / 255.0 / ((x1 - x0) * (y1 - y0));
+}
+
+TEST(FoliageMass, IsTheSameForAnyNumberOfThreads) {
+  const LeafAtlas atlas = oak_atlas();
+  std::vector<std::uint8_t> one, eight;
+  run_with_threads(1, [&] { one = make_foliage_mass(atlas, 3).base_colour.pixels; });
+  run_with_threads(8, [&] { eight = make_foliage_mass(atlas, 3).base_colour.pixels; });
+  EXPECT_EQ(one, eight);
+}
+
+TEST(FoliageMass, CoversMuchOfTheCardAndLeavesItsRimClear) {
+  const Image mass = make_foliage_mass(oak_atlas(), 3).base_colour;
+  for (int cell : {0, 1}) {
+    const int left = cell * kSide / 2;
+    const double cover = mean_alpha(mass, left, left + kSide / 2, 0, kSide / 2);
+    EXPECT_GT(cover, 0.2);
+    EXPECT_LT(cover, 0.75);
+    EXPECT_EQ(mean_alpha(mass, left, left + kSide / 2, 0, 2), 0.0);
+    EXPECT_EQ(mean_alpha(mass, left, left + 2, 0, kSide / 2), 0.0);
+  }
+}
+
+TEST(FoliageMass, KeepsTheSingleLeavesOfTheAtlas) {
+  const LeafAtlas atlas = oak_atlas();
+  const Image mass = make_foliage_mass(atlas, 3).base_colour;
+  for (int y = kSide / 2; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      ASSERT_TRUE(std::equal(mass.at(x, y), mass.at(x, y) + 4, atlas.base_colour.at(x, y)));
+}
+
+TEST(FoliageMass, ShowsSmallerLeavesThanTheAtlas) {
+  // Smaller leaves change from leaf to gap more often along a row.
+  const auto edges = [](const Image& image) {
+    int n = 0;
+    for (int y = 0; y < kSide / 2; ++y)
+      for (int x = 1; x < kSide / 2; ++x) n += (image.at(x, y)[3] > 127) != (image.at(x - 1, y)[3] > 127);
+    return n;
+  };
+  const LeafAtlas atlas = oak_atlas();
+  EXPECT_GT(edges(make_foliage_mass(atlas, 3).base_colour), 5 * edges(atlas.base_colour) / 4);
+}
+
+}  // namespace
+}  // namespace bosquet::geometry
