@@ -96,11 +96,10 @@ Texel paint(const std::vector<Placed>& placed, const std::array<Twig, 2>& twigs,
 }  // namespace
 
 LeafAtlas make_foliage_mass(const LeafAtlas& leaves, std::uint64_t seed) {
+  const std::array<Twig, 2> twigs{Twig(leaves.base_colour, 0), Twig(leaves.base_colour, 1)};
+  const int side = leaves.base_colour.width / 4;
   LeafAtlas mass;
-  mass.base_colour = leaves.base_colour;
-  Image& image = mass.base_colour;
-  const std::array<Twig, 2> twigs{Twig(image, 0), Twig(image, 1)};
-  const int side = image.width / 2;
+  Image& image = mass.base_colour = Image(2 * side, 2 * side, 4);
   for (int cell = 0; cell < 2; ++cell) {
     const std::vector<Placed> placed = place_twigs(cell, seed);
     std::vector<Texel> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
