@@ -8,6 +8,7 @@
 // Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
 // the
 //           bud's node turns rigidly about the node, away from the bud, base first
+// Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
 // Decision  space is competed for again before each metamer; a bud without a marker ends its shoot, and so does one
 // that
 //           would grow into the ground, or out of its region when it already stands outside (the trunk may)
@@ -24,7 +25,8 @@ namespace {
 
 constexpr float kNearlyVertical = 0.01f;  ///< level part of H below which its vertical plane is drawn at random
 
-Vec3 tropism(Tree& tree, const Habit& habit, const Vec3& h) {
+/// S for an axis with heading h.
+Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h) {
   Vec3 level{h.x, 0.0f, h.z};
   const float length = std::sqrt(h.x * h.x + h.z * h.z);
   if (length > kNearlyVertical) {
@@ -35,10 +37,14 @@ Vec3 tropism(Tree& tree, const Habit& habit, const Vec3& h) {
     const SinCos azimuth = sin_cos(2.0f * kPi * tree.random.uniform());
     level = {azimuth.cos, 0.0f, azimuth.sin};
   }
-  const Vec3 set_point = habit.set_point_cos * kUp + habit.set_point_sin * level;
-  if (!tree.leans) return set_point;
+  return habit.set_point_cos * kUp + habit.set_point_sin * level;
+}
+
+/// F, the tropism S with the press of the neighbours.
+Vec3 pressed(const Tree& tree, const Vec3& s) {
+  if (!tree.leans) return s;
   const float fade = 1.0f - std::sqrt(std::min(1.0f, tree.height_m / tree.input->max_height_m));
-  return normalised_or(set_point + fade * tree.input->asymmetry, set_point);
+  return normalised_or(s + fade * tree.input->asymmetry, s);
 }
 
 /// Chance of a lateral bud that stands on `side` of an axis with this heading, at place x of its shoot.
@@ -134,9 +140,17 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
 
   const Vec3 h = buds.direction[b];
   const Vec3 space = normalised_or(buds.claimed[b], h);
-  Vec3 heading = habit.alpha * h + habit.beta * tropism(tree, habit, h) + habit.gamma * space;
-  if (tree.parameters->planar) heading.z = 0.0f;
-  heading = normalised_or(heading, h);
+  const Vec3 s = set_point(tree, habit, h);
+  const auto toward = [&](const Vec3& tropism) {
+    Vec3 heading = habit.alpha * h + habit.beta * tropism + habit.gamma * space;
+    if (tree.parameters->planar) heading.z = 0.0f;
+    return normalised_or(heading, h);
+  };
+  Vec3 heading = toward(pressed(tree, s));
+  if (buds.order[b] == 0 && tree.leans && tree.input->region &&
+      !tree.input->region->contains(buds.at[b] + tree.occupied_m * heading)) {
+    heading = toward(s);
+  }
   const Vec3 end = buds.at[b] + tree.length_m * heading;
 
   if (end.y < (buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m)) return false;

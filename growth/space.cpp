@@ -1,6 +1,9 @@
 // Competition for space: markers dropped around buds, refused where wood, ground or other trees are, and claimed.
 //
 // Source    Longay 2014, 4.2.1 and 4.3.1, fig. 4.4; 6.6 (crown region)
+// Decision  in a region narrower than the cone hardly any marker may stand, so the tip of a trunk also drops one
+// straight
+//           ahead, or above where its region does not go on ahead: between neighbours a tree grows up, not nowhere
 // Decision  a bud drops 1 + floor(marker_rate * v / v_max) markers, v of the last season; before later metamers only
 // the
 //           buds still growing drop and claim
@@ -11,6 +14,9 @@
 
 namespace bosquet::growth {
 namespace {
+
+// Where a trunk's tip looks on its own axis, in occupancy radii.
+constexpr float kAhead = 1.25f;
 
 bool may_stand(const Tree& tree, const Vec3& p, float ground_m) {
   if (p.y <= ground_m) return false;
@@ -47,6 +53,15 @@ void drop_and_claim(Tree& tree) {
       const auto w = static_cast<std::size_t>(winner);
       buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
       ++buds.claims[w];
+    }
+    if (tree.input->region && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
+      for (const Vec3& ahead : {c.direction, kUp}) {
+        ++tested;
+        if (!may_stand(tree, c.at + kAhead * tree.occupied_m * ahead, ground)) continue;
+        buds.claimed[b] += ahead;
+        ++buds.claims[b];
+        break;
+      }
     }
   }
   tree.work.markers_tested += tested;

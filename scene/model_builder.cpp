@@ -19,6 +19,8 @@
 namespace bosquet::scene {
 namespace {
 
+// Below one half, since most viewers let the alpha of distant leaves fade in their mipmaps.
+constexpr float kLeafCutoff = 0.35f;
 constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
 // Grass thins out under a crown, but a single tree does not bare the ground; where crowns overlap their shade adds up.
 constexpr float kMostShade = 0.5f;
@@ -50,6 +52,7 @@ Material leaf_material(std::string name, const Species& species, geometry::LeafA
   if (!atlas.normal.empty()) material.normal = shared(std::move(atlas.normal));
   material.roughness = 0.7f;
   material.translucency = species.look.leaf.translucency;
+  material.alpha_cutoff = kLeafCutoff;
   material.mask = material.double_sided = true;
   return material;
 }

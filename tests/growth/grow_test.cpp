@@ -132,6 +132,27 @@ TEST(Grow, TheHashSeesWhateverChangesTheTree) {
   EXPECT_EQ(hashes.size(), inputs);
 }
 
+TEST(Grow, InAShaftBetweenNeighboursATreeGrowsUpToItsHeightAndStaysNearlyUpright) {
+  const Parameters p = sample_parameters();
+  const crowns::CrownRegion shaft =
+      region_where(2.0f, 14.0f, [](const Vec3& q) { return std::max(std::abs(q.x), std::abs(q.z)) < 0.25f; });
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    input.region = &shaft;
+    input.asymmetry = {1.0f, 0.0f, 0.0f};  // pressed against a border where it has no room to lean
+    const Skeleton s = grow(input);
+    float top = 0.0f, astray = 0.0f;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      if (!s.alive(i)) continue;
+      top = std::max(top, s.distal[i].y);
+      if (s.order[i] == 0)
+        astray = std::max(astray, std::sqrt(s.distal[i].x * s.distal[i].x + s.distal[i].z * s.distal[i].z));
+    }
+    EXPECT_GE(top, 0.8f * input.max_height_m) << "seed " << seed;
+    EXPECT_LT(astray, 2.5f) << "seed " << seed;
+  }
+}
+
 TEST(Grow, InternodesEndInTheirRegionOrJustOutside) {
   const Parameters p = sample_parameters();
   const auto inside = [](const Vec3& v) { return v.x * v.x + v.z * v.z < 2.0f * 2.0f; };
