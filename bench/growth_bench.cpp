@@ -2,8 +2,8 @@
 //
 // single    one free-standing tree of each built-in habit, again and again
 // stand     300 trees on 30 x 30 m, each in the Voronoi cell of its base as a region of 0.25 m voxels, light of others
-// off,
-//           kappa >= 1, n_max <= 4, h_max 18 m: the hard case of the bar of 1,000,000 internodes kept a second and core
+//           off, kappa >= 1, n_max <= 4, h_max 18 m: the hard case of the bar of 1,000,000 internodes kept a second
+//           and core
 // Counters  internodes/s; and markers tested, living buds visited and shadow updates for each internode kept, so that a
 //           faster program can be told from one that does less
 #include <benchmark/benchmark.h>

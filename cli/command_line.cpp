@@ -9,6 +9,18 @@ namespace {
 
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 
+// A number in [low, high]; CLI11's own range lets "nan" pass.
+CLI::Validator within(double low, double high) {
+  return CLI::Validator(
+      [low, high](std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+        return "'" + text + "' must be a number from " + CLI::detail::to_string(low) + " to " +
+               CLI::detail::to_string(high);
+      },
+      "");
+}
+
 template <class Enum, std::size_t N>
 std::map<std::string, Enum> by_name(const std::array<std::string_view, N>& names) {
   std::map<std::string, Enum> map;
@@ -24,21 +36,14 @@ void add_common(CLI::App* app, Options& o) {
   app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings");
 }
 
-void add_scene(CLI::App* app, Options& o) {
+void add_growth(CLI::App* app, Options& o) {
   app->add_option("--seed", o.seed, "Seed in place of the recipe's")->option_text("S");
   app->add_option("--year", o.grow.year, "Age in years at which trees are shown; default: grown up")
-      ->check(CLI::Range(0.0, 2000.0))
+      ->check(within(0.0, 2000.0))
       ->option_text("N");
-  app->add_option("--season", o.season, "spring, summer, autumn or bare")
-      ->transform(CLI::CheckedTransformer(by_name<geometry::Season>(geometry::kSeasonNames)))
-      ->option_text("NAME");
   app->add_option("--detail", o.grow.detail, "Internodes are this many times shorter, 0.25 to 4")
-      ->check(CLI::Range(0.25, 4.0))
+      ->check(within(0.25, 4.0))
       ->option_text("K");
-  app->add_option("--foliage", o.foliage, "leaves, clusters or cards")
-      ->transform(CLI::CheckedTransformer(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
-      ->option_text("LEVEL");
-  app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")->option_text("N");
   app->add_option("--regions", o.grow.regions, "on: trees keep to their crown regions")
       ->transform(CLI::CheckedTransformer(kOnOff))
       ->option_text("on|off");
@@ -47,9 +52,21 @@ void add_scene(CLI::App* app, Options& o) {
       ->option_text("on|off");
 }
 
+void add_scene(CLI::App* app, Options& o) {
+  add_growth(app, o);
+  app->add_option("--season", o.season, "spring, summer, autumn or bare")
+      ->transform(CLI::CheckedTransformer(by_name<geometry::Season>(geometry::kSeasonNames)))
+      ->option_text("NAME");
+  app->add_option("--foliage", o.foliage, "leaves, clusters or cards")
+      ->transform(CLI::CheckedTransformer(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
+      ->option_text("LEVEL");
+  app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")->option_text("N");
+}
+
 void add_picture(CLI::App* app, Options& o) {
-  app->add_option("--camera", o.camera,
-                  "A camera of the recipe, or eye and target as east,north,height,east,north,height")
+  app->add_option(
+         "--camera", o.camera,
+         "A camera of the recipe, or eye and target as east,north,height,east,north,height (heights above datum 0)")
       ->option_text("NAME|x,y,z,tx,ty,tz");
   app->add_option("--sun", o.sun, "\"2026-06-21 15:00\" or azimuth,elevation in degrees")->option_text("TIME|az,el");
   app->add_option_function<std::string>(
@@ -74,7 +91,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
 
   CLI::App app{"Bosquet: paint a forest, and every tree grows its own way."};
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
 
   CLI::App* make = app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb");
   make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
@@ -92,7 +109,9 @@ ParsedLine parse_command_line(int argc, char** argv) {
                                                                           {"arrows", ViewKind::arrows},
                                                                           {"plan", ViewKind::plan}}))
       ->option_text("NAME");
-  render->add_option("--slice", o.slice_m, "Height in metres at which --view regions cuts")->option_text("M");
+  render->add_option("--slice", o.slice_m, "Height in metres at which --view regions cuts")
+      ->check(within(-10000.0, 10000.0))
+      ->option_text("M");
   add_scene(render, o), add_picture(render, o), add_common(render, o);
   render->callback([&] { o.command = Command::render; });
 
@@ -101,32 +120,33 @@ ParsedLine parse_command_line(int argc, char** argv) {
   info->add_flag("--json", o.json, "As JSON");
   info->callback([&] { o.command = Command::info; });
 
-  CLI::App* import = app.add_subcommand("import", "Adds ground or trees to a recipe, which is made when missing");
-  import->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
-  import->add_option("--dem", o.dem, "Elevation raster (GeoTIFF, PNG, ...)")->option_text("FILE");
-  import->add_option("--trees", o.inventory, "Tree inventory (.csv)")->option_text("FILE");
-  import->callback([&] { o.command = Command::import;
-});
+  CLI::App* add = app.add_subcommand("import", "Adds ground or trees to a recipe, which is made when missing");
+  add->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  add->add_option("--dem", o.dem, "Elevation raster (GeoTIFF, PNG, ...)")->option_text("FILE");
+  add->add_option("--trees", o.inventory, "Tree inventory (.csv)")->option_text("FILE");
+  add->callback([&] { o.command = Command::import_data; });
 
-CLI::App* stats = app.add_subcommand("stats", "Grows a recipe and measures the pattern of bases and crown centroids");
-stats->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
-stats->add_flag("--json", o.json, "As JSON");
-add_scene(stats, o), add_common(stats, o);
-stats->callback([&] { o.command = Command::stats; });
+  CLI::App* stats = app.add_subcommand("stats", "Grows a recipe and measures the pattern of bases and crown centroids");
+  stats->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  stats->add_flag("--json", o.json, "As JSON");
+  add_growth(stats, o), add_common(stats, o);
+  stats->callback([&] { o.command = Command::stats; });
 
-CLI::App* species = app.add_subcommand("species", "The built-in species");
-species->require_subcommand(1);
-species->add_subcommand("list", "Names them")->callback([&] { o.command = Command::species_list; });
-CLI::App* show = species->add_subcommand("show", "Prints a species' file");
-show->add_option("name", o.species)->required();
-show->callback([&] { o.command = Command::species_show; });
+  CLI::App* species = app.add_subcommand("species", "The built-in species");
+  species->require_subcommand(1);
+  species->add_subcommand("list", "Names them")->callback([&] { o.command = Command::species_list; });
+  CLI::App* show = species->add_subcommand("show", "Prints a species' file");
+  show->add_option("name", o.species)->required();
+  show->callback([&] { o.command = Command::species_show; });
 
-try {
-  app.parse(argc, argv);
-} catch (const CLI::ParseError& e) {
-  parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
+  app.add_subcommand("ui", "The window (not in this build)");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
+  }
+  return parsed;
 }
-return parsed;
-}  // namespace bosquet::cli
 
 }  // namespace bosquet::cli

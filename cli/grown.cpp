@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/picture.h"
 #include "exchange/recipe.h"
 
 namespace bosquet::cli {
@@ -12,13 +13,30 @@ namespace {
 
 constexpr std::size_t kShownWarnings = 12;
 
+// A recipe's own files are never replaced by what is made from it.
+Result<void> refuse_overwriting(const exchange::Recipe& recipe, const Options& options) {
+  std::vector<std::filesystem::path> inputs{recipe.file, recipe.ground.dem};
+  for (const exchange::PlantingRecipe& planting : recipe.plantings) inputs.push_back(planting.file);
+  std::vector<std::filesystem::path> targets = options.outputs;
+  targets.push_back(options.report);
+  for (const auto& target : targets)
+    for (const auto& input : inputs) {
+      std::error_code ec;
+      if (!target.empty() && !input.empty() && std::filesystem::equivalent(target, input, ec))
+        return Error{fmt::format("{}: the recipe reads this file; write to another name", target.string())};
+    }
+  return {};
+}
+
 }  // namespace
 
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {
   auto recipe = exchange::read_recipe(options.file, options.seed);
   if (!recipe) return recipe.error();
+  if (auto fine = refuse_overwriting(*recipe, options); !fine) return fine.error();
   auto built = exchange::build_document(*recipe, &progress);
   if (!built) return built.error();
+  if (auto fine = check_picture_options(built->document, options); !fine) return fine.error();
   report.seed = built->document.seed;
   report.seconds = built->seconds;
   report.warnings = built->warnings;

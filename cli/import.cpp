@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/grown.h"
@@ -29,6 +30,15 @@ std::string path_from(const path& recipe, const path& file) {
   const path folder = recipe.has_parent_path() ? recipe.parent_path() : path(".");
   const path relative = std::filesystem::relative(file, folder, ec);
   return (ec || relative.empty() ? std::filesystem::absolute(file) : relative).generic_string();
+}
+
+std::string toml_text(const std::string& text) {
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
 }
 
 Result<Extent> extent_of_trees(const exchange::Inventory& inventory, const path& file) {
@@ -73,11 +83,19 @@ Result<void> run_import(const Options& options) {
   if (!text) return text.error();
   const bool fresh = text->empty();
 
+  if (!fresh && text->back() != '\n') *text += '\n';
+
   std::optional<Extent> site;
+  std::set<std::string> names;  // of the plantings
   if (!fresh) {
     auto recipe = exchange::parse_recipe(*text, options.file);
     if (!recipe) return recipe.error();
-    site = Extent{recipe->ground.dem_corner_given ? recipe->ground.dem_south_west : DVec2(0.0), DVec2(recipe->size_m)};
+    if (!options.dem.empty() && !recipe->ground.dem.empty())
+      return Error{fmt::format("{}: has the ground {} already; change its key dem by hand", options.file.string(),
+                               recipe->ground.dem.string())};
+    for (const exchange::PlantingRecipe& planting : recipe->plantings) names.insert(planting.name);
+    site = Extent{recipe->ground.dem_corner_given ? recipe->ground.dem_south_west : recipe->document.place.south_west,
+                  DVec2(recipe->size_m)};
   }
 
   std::string ground;
@@ -85,7 +103,7 @@ Result<void> run_import(const Options& options) {
     auto raster = exchange::read_elevation(options.dem);
     if (!raster) return raster.error();
     if (!site) site = Extent{raster->low_corner(), raster->high_corner() - raster->low_corner()};
-    ground = fmt::format("dem = \"{}\"\ndem_south_west = [{}, {}]\n", path_from(options.file, options.dem),
+    ground = fmt::format("dem = {}\ndem_south_west = [{}, {}]\n", toml_text(path_from(options.file, options.dem)),
                          site->south_west.x, site->south_west.y);
     fmt::print("{}: {} x {} cells of {:g} m\n", options.dem.string(), raster->columns, raster->rows, raster->cell_x_m);
   }
@@ -102,14 +120,16 @@ Result<void> run_import(const Options& options) {
       if (!extent) return extent.error();
       site = *extent;
     }
-    trees = fmt::format("\n[[planting]]\nname = \"{}\"\nkind = \"inventory\"\nfile = \"{}\"\nsouth_west = [{}, {}]\n",
-                        options.inventory.stem().string(), path_from(options.file, options.inventory),
-                        site->south_west.x, site->south_west.y);
+    std::string name = options.inventory.stem().string();
+    for (int n = 2; names.contains(name); ++n) name = fmt::format("{} {}", options.inventory.stem().string(), n);
+    trees = fmt::format("\n[[planting]]\nname = {}\nkind = \"inventory\"\nfile = {}\nsouth_west = [{}, {}]\n",
+                        toml_text(name), toml_text(path_from(options.file, options.inventory)), site->south_west.x,
+                        site->south_west.y);
     fmt::print("{}: {} trees\n", options.inventory.string(), inventory->trees.size());
   }
 
   if (fresh)
-    *text = fmt::format("[site]\nsize_m = [{:g}, {:g}]\nseed = 1\nsouth_west = [{}, {}]\n", site->size.x, site->size.y,
+    *text = fmt::format("[site]\nsize_m = [{}, {}]\nseed = 1\nsouth_west = [{}, {}]\n", site->size.x, site->size.y,
                         site->south_west.x, site->south_west.y);
   if (!ground.empty()) *text = with_table_lines(std::move(*text), "[terrain]", ground);
   *text += trees;

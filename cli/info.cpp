@@ -90,7 +90,7 @@ Result<void> recipe_info(const Options& options) {
     json["trees"] = built->document.trees->size();
     json["species"] = count;
     json["warnings"] = built->warnings;
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return {};
   }
   fmt::print("{}: recipe, site {:g} x {:g} m, {} trees\n", options.file.string(), size.x, size.y,

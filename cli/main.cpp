@@ -19,7 +19,7 @@ Result<void> run(const cli::Options& options) {
       return cli::run_render(options);
     case cli::Command::info:
       return cli::run_info(options);
-    case cli::Command::import:
+    case cli::Command::import_data:
       return cli::run_import(options);
     case cli::Command::stats:
       return cli::run_stats(options);
@@ -29,7 +29,8 @@ Result<void> run(const cli::Options& options) {
     case cli::Command::none:
       break;
   }
-  return Error{"nothing to do; try bosquet --help"};
+  return Error{
+      "this build has no window; grow a recipe with: bosquet make RECIPE.toml -o OUT.glb (bosquet --help lists all)"};
 }
 
 }  // namespace

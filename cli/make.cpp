@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/grown.h"
@@ -29,6 +29,12 @@ struct Made {
 };
 using Writer = Result<std::uint64_t> (*)(const Made&, const path&);
 
+// 0 for what is no regular file, such as a pipe.
+std::uint64_t size_of(const path& file) {
+  std::error_code ec;
+  return std::filesystem::is_regular_file(file, ec) ? std::filesystem::file_size(file, ec) : 0;
+}
+
 Result<std::uint64_t> write_model(const Made& made, const path& target) {
   const exchange::TextureCache cache = exchange::TextureCache::of_user();
   exchange::GltfOptions options;
@@ -42,7 +48,7 @@ Result<std::uint64_t> write_png(const Made& made, const path& target) {
   made.progress.begin("picture", 1);
   if (auto drawn = write_picture(made.built.model, made.grown.document, made.options, target); !drawn)
     return drawn.error();
-  return std::filesystem::file_size(target);
+  return size_of(target);
 }
 
 Result<std::uint64_t> write_csv(const Made& made, const path& target) {
@@ -64,7 +70,7 @@ Result<std::uint64_t> write_voxels(const Made& made, const path& target) {
   for (const scene::Tree& tree : *made.grown.document.trees)
     names.emplace_back(tree.id, fmt::format("{}-{}", made.grown.document.species_of(tree).name, tree.id));
   if (auto done = crowns::write_vdb(crowns::build_grid(made.grown.space), target, names); !done) return done.error();
-  return std::filesystem::file_size(target);
+  return size_of(target);
 }
 
 struct Format {
@@ -85,11 +91,7 @@ const Format* format_of(const path& target) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-// What can be known to fail is refused before anything grows.
-Result<void> check_target(const path& target, bool picture_only) {
-  if (picture_only ? target.extension() != ".png" : !format_of(target))
-    return Error{fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(), target.extension().string(),
-                             picture_only ? ".png" : ".glb .gltf .png .csv .vdb")};
+Result<void> check_folder(const path& target) {
   const path folder = target.has_parent_path() ? target.parent_path() : path(".");
   std::error_code ec;
   if (!std::filesystem::is_directory(folder, ec))
@@ -99,17 +101,18 @@ Result<void> check_target(const path& target, bool picture_only) {
   return {};
 }
 
+// What can be known to fail is refused before anything grows.
 Result<void> check_targets(const Options& options, bool picture_only) {
-  for (const path& target : options.outputs)
-    if (auto fine = check_target(target, picture_only); !fine) return fine;
-  if (!options.report.empty()) {
-    const path folder = options.report.has_parent_path() ? options.report.parent_path() : path(".");
-    std::error_code ec;
-    if (!std::filesystem::is_directory(folder, ec))
-      return Error{
-          fmt::format("{}: the folder {} does not exist; make it first", options.report.string(), folder.string())};
+  std::set<path> seen;
+  for (const path& target : options.outputs) {
+    if (picture_only ? target.extension() != ".png" : !format_of(target))
+      return Error{fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(),
+                               target.extension().string(), picture_only ? ".png" : ".glb .gltf .png .csv .vdb")};
+    if (auto fine = check_folder(target); !fine) return fine;
+    if (!seen.insert(std::filesystem::absolute(target).lexically_normal()).second)
+      return Error{fmt::format("{}: is asked for twice", target.string())};
   }
-  return {};
+  return options.report.empty() ? Result<void>() : check_folder(options.report);
 }
 
 bool grows_meshes(const Options& options) {
@@ -141,10 +144,10 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
   Stopwatch exporting;
   const Made made{*grown, built, options, progress};
   for (const path& target : options.outputs) {
+    if (progress.cancelled()) return cannot_finish(fmt::format("cancelled; {} was not written", target.string()));
     auto bytes = format_of(target)->write(made, target);
     if (!bytes) return bytes.error();
     report.bytes.emplace_back(target.string(), *bytes);
-    if (progress.cancelled()) return cannot_finish("cancelled");
   }
   report.seconds["export"] = exporting.seconds();
   report.seconds["total"] = total.seconds();

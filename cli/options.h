@@ -14,7 +14,7 @@
 
 namespace bosquet::cli {
 
-enum class Command { none, make, render, info, import, stats, species_list, species_show };
+enum class Command { none, make, render, info, import_data, stats, species_list, species_show };
 
 enum class ViewKind { trees, shapes, regions, arrows, plan };
 
@@ -43,7 +43,7 @@ struct Options {
   int threads = 0;
   std::optional<std::uint64_t> seed;
   std::filesystem::path report;
-  bool quiet = false, json = false, check = false;
+  bool quiet = false, json = false;
 };
 
 /// What parsing led to: options to act on, or an exit status when everything is said (help, version, an error).

@@ -33,7 +33,21 @@ render::View plan_view(const scene::Model& model, const Options& options) {
   return view;
 }
 
+Result<scene::Sun> chosen_sun(const scene::Document& document, const Options& options) {
+  return render::sun_from_text(options.sun, {document.place.latitude_deg, document.place.longitude_deg, {}});
+}
+
 }  // namespace
+
+Result<void> check_picture_options(const scene::Document& document, const Options& options) {
+  scene::Model cameras;
+  cameras.cameras = document.cameras;
+  if (!options.camera.empty())
+    if (auto camera = render::camera_from_text(options.camera, cameras); !camera) return camera.error();
+  if (!options.sun.empty())
+    if (auto sun = chosen_sun(document, options); !sun) return sun.error();
+  return {};
+}
 
 Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
                            const std::filesystem::path& target) {
@@ -54,7 +68,7 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   view.width = options.width;
   view.height = options.height;
   if (!options.sun.empty()) {
-    auto sun = render::sun_from_text(options.sun, {document.place.latitude_deg, document.place.longitude_deg, {}});
+    auto sun = chosen_sun(document, options);
     if (!sun) return sun.error();
     view.sun = *sun;
   }

@@ -15,6 +15,9 @@ namespace bosquet::cli {
 Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
                            const std::filesystem::path& target);
 
+/// What --camera and --sun say, checked before anything is grown.
+Result<void> check_picture_options(const scene::Document& document, const Options& options);
+
 /// The model of a view other than trees: shapes, regions, arrows or plan.
 Result<scene::Model> view_model(const scene::GrownScene& grown, const Options& options);
 

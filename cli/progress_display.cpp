@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -19,7 +20,9 @@ constexpr std::size_t kBarWidth = 24;
 std::atomic<Progress*> interrupted_progress{nullptr};
 
 void on_interrupt(int) {
-  if (Progress* p = interrupted_progress.load()) p->cancel();
+  Progress* p = interrupted_progress.load();
+  if (!p || p->cancelled()) _exit(2);  // asked twice: at once
+  p->cancel();
 }
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -55,18 +58,26 @@ void ProgressDisplay::show_until_stopped() {
   while (!stop_.load()) {
     const std::string now = progress_.stage();
     const std::size_t done = progress_.done(), total = progress_.total();
-    const double share = total ? static_cast<double>(done) / static_cast<double>(total) : 0.0;
+    // The counts are read one after the other while work goes on, so done may exceed total for a moment.
+    const double share = total ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0.0;
     const bool fresh = now != stage;
     if (fresh) stage = now, stage_start = Clock::now(), last_plain_s = 0.0;
     const double elapsed = seconds_since(stage_start);
     if (!stage.empty() && terminal_) {
-      const std::size_t filled = static_cast<std::size_t>(share * kBarWidth);
-      fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}/{}  {}", stage, std::string(filled, '#'),
-                 std::string(kBarWidth - filled, '.'), 100.0 * share, done, total, time_left(elapsed, share));
+      const auto filled = static_cast<std::size_t>(share * kBarWidth);
+      const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+      if (total == 0)
+        fmt::print(stderr, "\r\033[K{}", stage);
+      else
+        fmt::print(stderr, "\r\033[K{} [{}] {:3.0f} %  {}/{}  {}", stage, bar, 100.0 * share, done, total,
+                   time_left(elapsed, share));
       std::fflush(stderr);
     } else if (!stage.empty() && (fresh || elapsed - last_plain_s >= kPlainLineEvery_s)) {
       last_plain_s = elapsed;
-      fmt::print(stderr, "{}: {} of {} {}\n", stage, done, total, time_left(elapsed, share));
+      if (total == 0)
+        fmt::print(stderr, "{}\n", stage);
+      else
+        fmt::print(stderr, "{}: {} of {} {}\n", stage, done, total, time_left(elapsed, share));
     }
     std::this_thread::sleep_for(kRefresh);
   }

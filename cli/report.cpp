@@ -39,7 +39,8 @@ Result<void> write_report(const std::filesystem::path& path, const Report& repor
     json["seconds"][stage] = found == report.seconds.end() ? 0.0 : found->second;
   }
   json["warnings"] = report.warnings;
-  auto written = exchange::write_file(path, json.dump(2) + "\n");
+  auto written =
+      exchange::write_file(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   if (!written) return written.error();
   return {};
 }

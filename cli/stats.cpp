@@ -87,8 +87,12 @@ Result<void> run_stats(const Options& options) {
   }
   print_warnings(report.warnings, options.quiet);
   if (!*json) return json->error();
+  if (!options.report.empty()) {
+    report.threads = working_threads();
+    if (auto written = write_report(options.report, report); !written) return written;
+  }
   if (options.json)
-    fmt::print("{}\n", (**json).dump(2));
+    fmt::print("{}\n", (**json).dump(2, ' ', false, Json::error_handler_t::replace));
   else
     print_table(**json);
   return {};

@@ -1,8 +1,7 @@
 // Parallel loops: the only door to oneTBB.
 //
 // Holds     a loop body writes to its own slots only, and a reduction joins fixed chunks in a fixed order, so results
-// are
-//           the same bits for any number of threads
+//           are the same bits for any number of threads
 // Errors    none of their own; an exception thrown by a body stops the loop and reaches the caller
 #pragma once
 

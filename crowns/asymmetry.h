@@ -13,7 +13,7 @@
 //           from the two keys, in opposite directions
 // Frame     world: V has x east, z south, y = 0; it adds to a tropism that is dimensionless
 // Holds     0 for a tree without neighbours; sums run in key order, so trees may come in any order; V is rounded to
-// 1/64
+//           1/64
 #pragma once
 
 #include <concepts>

@@ -16,9 +16,8 @@
 //
 // Units     metres
 // Lattice   voxel (i, k, j) = (east, up, north) spans [i, i+1] * voxel_m east, [k, k+1] * layer_m up, [j, j+1] *
-// voxel_m
-//           north of the site's south-west corner at height 0; indices may be negative. It exists where any part of it
-//           lies above the ground at its column's centre and some tree can reach it.
+//           voxel_m north of the site's south-west corner at height 0; indices may be negative. It exists where any
+//           part of it lies above the ground at its column's centre and some tree can reach it.
 // Holds     each region is 4-connected in every layer from its tree's base up; the division is the same for any number
 //           of threads and any order of trees (ties in time go by key)
 // Errors    options out of range, trees that are not numbers, and spaces beyond memory_gb come back as one message

@@ -3,9 +3,8 @@
 // Source    Longay 2014, 6.5.1, after Grote and Pretzsch 2002 and Schaudt and Drysdale 1991. The source moves polygon
 //           points; here the same first arrival is the solution of |grad t| = slowness on each tree's own voxels
 // Model     t of a voxel centre = t0 + delay, t0 = slowness * max(0, |p - base| - trunk radius) the time of the
-// straight
-//           way from the trunk. With a settled neighbour n and a settled cell d beside n (diagonal to the voxel), both
-//           of the same tree, the delay solves
+//           straight way from the trunk. With a settled neighbour n and a settled cell d beside n (diagonal to the
+//           voxel), both of the same tree, the delay solves
 //             (t0_a + delay - delay_n)^2 + (t0_b + delay_n - delay_d)^2 = slowness^2
 //           a along the step from n, b from d to n, t0's slopes exact (additive factored eikonal equation, Luo and Qian
 //           2012, Treister and Haber 2016, on the eight triangles around a voxel). So the delay is 0 and t exact where

@@ -3,8 +3,8 @@
 // Grid      Int32, name "trees"; a voxel holds its tree's id; 0 is the background and means free. Ids below 0 are kept
 //           for obstacles and trees that are already there.
 // Frame     index (x, y, z) = (i, k, -1 - j) of the lattice of crown_space.h: x east, y up, z south. The grid's
-// transform
-//           maps index 0.5 past it, the voxel's centre, to world metres, so tools see the forest where glTF shows it.
+//           transform maps index 0.5 past it, the voxel's centre, to world metres, so tools see the forest where glTF
+//           shows it.
 // Errors    a path that cannot be written comes back as a message; the file appears whole or not at all
 // Holds     values are the same for any number of threads; file bytes are not (OpenVDB stamps each write)
 #pragma once

@@ -1,9 +1,8 @@
 // Rows: trees at places that somebody chose: one by one, in rows and avenues, grids and hedges.
 //
 // Model     a row follows a polyline at a constant offset (corners mitred) with constant spacing along that offset
-// line;
-//           jitter moves each tree uniformly within a disc. Grid rows run east, then the grid turns about the middle of
-//           its region's bounds
+//           line; jitter moves each tree uniformly within a disc. Grid rows run east, then the grid turns about the
+//           middle of its region's bounds
 // Decision  such trees are not drawn from fields and keep no species spacing (a hedge stands closer than a forest); a
 //           place off the site, excluded, under water or on another trunk is left out and reported
 // Frame     plan (east, north) metres; left and right as seen along the line

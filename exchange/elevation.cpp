@@ -148,8 +148,9 @@ Result<std::vector<float>> read_band(GDALDataset& dataset, GDALRasterBand& band,
 
 Result<Elevation> read_elevation(const std::filesystem::path& path, const ElevationOptions& options) {
   const std::string name = path.string();
-  if (!std::filesystem::exists(path)) return Error{fmt::format("there is no elevation file {}", name)};
-  if (!std::filesystem::is_regular_file(path)) return Error{fmt::format("elevation {} is no regular file", name)};
+  std::error_code ec;
+  if (!std::filesystem::exists(path, ec)) return Error{fmt::format("there is no elevation file {}", name)};
+  if (!std::filesystem::is_regular_file(path, ec)) return Error{fmt::format("elevation {} is no regular file", name)};
   register_drivers();
   const GdalMessages messages;
   Dataset dataset(
@@ -243,10 +244,11 @@ Result<std::vector<float>> heights_at_corners(const Elevation& elevation, DVec2 
   assert(columns > 0 && rows > 0 && cell_m > 0);
   const DVec2 north_east = south_west + cell_m * DVec2(columns, rows), low = elevation.low_corner(),
               high = elevation.high_corner();
-  // A thousandth of a cell is rounding in the file's corners.
+  // A thousandth of a cell is rounding in the file's corners. The last row and column of the site's cells may overhang the
+  // site by less than a cell, which is read at the raster's edge.
   const double slack_x = 1e-3 * elevation.cell_x_m, slack_y = 1e-3 * elevation.cell_y_m;
-  if (south_west.x < low.x - slack_x || south_west.y < low.y - slack_y || north_east.x > high.x + slack_x ||
-      north_east.y > high.y + slack_y)
+  if (south_west.x < low.x - slack_x || south_west.y < low.y - slack_y || north_east.x - cell_m > high.x + slack_x ||
+      north_east.y - cell_m > high.y + slack_y)
     return Error{fmt::format(
         "{} ({} x {} cells) does not cover the site: it reaches from east {:.10g} to {:.10g} m and north {:.10g} to "
         "{:.10g} m, the site from {:.10g} to {:.10g} and {:.10g} to {:.10g}",

@@ -73,8 +73,11 @@ Result<FileOutput> FileOutput::create(const std::filesystem::path& target) {
   if (exists && !S_ISREG(old.st_mode)) {
     file.descriptor_ = ::open(real.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
-    file.hidden_ = hidden_name(real);
-    file.descriptor_ = ::open(file.hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    // A killed run may have left its hidden file behind, and process numbers come again: take the next name.
+    do {
+      file.hidden_ = hidden_name(real);
+      file.descriptor_ = ::open(file.hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file.descriptor_ < 0 && errno == EEXIST);
   }
   if (file.descriptor_ < 0) {
     file.hidden_.clear();

@@ -117,6 +117,7 @@ class Reader {
           continue;
         }
         species = std::move(*builtin);
+        species.derived = table.has("like");
         species.name = name.value_or(species.name);
       }
       scene::read_species_tables(table, species);
@@ -174,7 +175,7 @@ class Reader {
 
     const auto scale =
         table.has("scale") && planting.kind != PlantingKind::single ? table.numbers("scale", 2) : std::nullopt;
-    if (scale && !((*scale)[0] > 0.02 && (*scale)[0] <= (*scale)[1] && (*scale)[1] <= 4))
+    if (scale && !((*scale)[0] >= 0.02 && (*scale)[0] <= (*scale)[1] && (*scale)[1] <= 4))
       table.error("scale",
                   fmt::format("scale = [{:g}, {:g}] must be [smallest, largest], 0.02 to 4", (*scale)[0], (*scale)[1]));
     double total = 0;
@@ -205,6 +206,10 @@ class Reader {
         describe(planting.brush, table);
         planting.line = required_points(table, "points");
         planting.seconds = static_cast<float>(table.number("seconds", 0.02, 3600).value_or(2.0));
+        if (const distribution::PlantBrush& b = planting.brush;
+            static_cast<double>(b.rate * b.strength * b.radius_m * b.radius_m * planting.seconds) > kMostTrees)
+          table.error("points", fmt::format("the brush would plant more than {} trees; lower rate, radius_m or seconds",
+                                            kMostTrees));
         break;
       case PlantingKind::hedge:
         planting.row = distribution::hedge_rules();

@@ -52,7 +52,10 @@ Result<terrain::Terrain> make_ground(const Recipe& recipe, scene::Georeference& 
   }
   if (ground.noise.amplitude_m > 0.0f)
     site.height = terrain::with_noise(site.height, ground.noise, recipe.document.seed);
-  for (const terrain::Stroke& stroke : ground.strokes) site = terrain::apply(site, stroke);
+  for (terrain::Stroke stroke : ground.strokes) {
+    stroke.seed += recipe.document.seed;
+    site = terrain::apply(site, stroke);
+  }
   site.water_level_m = ground.water_level_m;
   for (const auto& [name, area] : ground.exclusions) site = terrain::exclude(site, area);
   for (const PathArea& path : ground.paths) site = terrain::exclude_path(site, path.points, path.width_m);
@@ -232,7 +235,7 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
   document.terrain = std::make_shared<const terrain::Terrain>(std::move(*ground));
   built.seconds["terrain"] = watch.restart();
 
-  if (progress) progress->begin("planting", recipe.plantings.size());
+  if (progress) progress->begin("planting", 0);
   auto planting = Planting::make(*document.terrain, planting_species(document), recipe.interactions);
   if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
   Planter planter(recipe, *planting, built.warnings, progress);

@@ -2,9 +2,8 @@
 //
 // Source    Longay 2014, 4.4.3, eq. 4.6; the captions of its fig. 5.6 swap amphitony and epitony
 // Model     an ellipse with half-axes s_v along V and s_p along P, its centre e_v along V, lies across the axis; d is
-// the
-//           distance from the axis to it in the bud's direction chi; b = cos^2(tau) + d * sin^2(tau), tau the axis's
-//           angle to the vertical
+//           the distance from the axis to it in the bud's direction chi; b = cos^2(tau) + d * sin^2(tau), tau the
+//           axis's angle to the vertical
 // Holds     b = 1 on a vertical axis, and everywhere for s_v = s_p = 1, e_v = 0; |e_v| < s_v, so d > 0
 #pragma once
 

@@ -3,7 +3,7 @@
 // Model     base table, then [[order]] tables, then [[phase]] tables (parameters.h)
 // Units     radians only as sines and cosines; metamers, not metres
 // Decision  detail k: alpha -> alpha^(1/k), beta and gamma share the rest as before; n_max stays in internodes of
-// detail 1
+//           detail 1
 #pragma once
 
 #include <array>

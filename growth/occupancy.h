@@ -3,8 +3,7 @@
 // Source    Runions et al. 2007 (kill distance); Longay 2014, 4.2.1: a sphere of radius r around every node
 // Decision  every node of living wood occupies, whatever its bud does; shedding frees it
 // Layout    cells of a little under r / sqrt(3), so that a cell that holds a node is occupied as a whole and most
-// markers
-//           are refused without a distance; node lists by cell; the grid grows when wood leaves it
+//           markers are refused without a distance; node lists by cell; the grid grows when wood leaves it
 #pragma once
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // Growth parameters: what makes one species grow unlike another.
 //
-// Source    Longay 2014, chapter 4 (light, space, vigor, tropism, gravimorphism, deflection), 5.4 (the widgets'
-// parameters) Units     metres, degrees (as in files); r and d in internode lengths at detail 1 Decision  a season is
-// not a year: a season is one round of growth, ages come from the height curve (growth/age.h) Decision  for an axis of
-// order o the numbers in force are: the base table, then the [[order]] tables with from <= o,
+// Source    Longay 2014, chapter 4 (light, space, vigor, tropism, gravimorphism, deflection), 5.4 (the widgets' parameters)
+// Units     metres, degrees (as in files); r and d in internode lengths at detail 1
+// Decision  a season is not a year: a season is one round of growth, ages come from the height curve (growth/age.h)
+// Decision  for an axis of order o the numbers in force are: the base table, then the [[order]] tables with from <= o,
 //           then the [[phase]] tables whose height has been reached and whose orders include o; the later one wins
 // Errors    check() names the key, its value and what is allowed
 #pragma once

@@ -3,8 +3,7 @@
 // Source    Longay 2014, 5.3, eq. 5.1-5.3, the pipe model (Shinozaki et al. 1964)
 // Model     d^n = sum d_i^n + p * d_e^n over the children d_i, p = 1 / detail; a tip is d_e wide
 // Decision  every internode adds its own pipe (the source is the case p = 0), and pipes of shed wood stay: that
-// thickens
-//           old trees and lets shoots taper
+//           thickens old trees and lets shoots taper
 // Erratum   the derivative of d^n by n is d^n log d; the source prints 3 d^n / d_e
 // Units     metres; d_e, n and detail are kept in the skeleton
 // Errors    a width that no exponent gives: not wider than the wood it carries

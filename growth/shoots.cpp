@@ -6,12 +6,10 @@
 // Decision  detail k: a shoot is as long as at detail 1, n * k metamers, rounded up or down at random so that the mean
 //           is kept (n_max * k in the floor would leave short shoots out)
 // Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
-// the
-//           bud's node turns rigidly about the node, away from the bud, base first
+//           the bud's node turns rigidly about the node, away from the bud, base first
 // Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
 // Decision  space is competed for again before each metamer; a bud without a marker ends its shoot, and so does one
-// that
-//           would grow into the ground, or out of its region when it already stands outside (the trunk may)
+//           that would grow into the ground, or out of its region when it already stands outside (the trunk may)
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -2,11 +2,10 @@
 //
 // Source    Longay 2014, 4.2.1 and 4.3.1, fig. 4.4; 6.6 (crown region)
 // Decision  in a region narrower than the cone hardly any marker may stand, so the tip of a trunk also drops one
-// straight
-//           ahead, or above where its region does not go on ahead: between neighbours a tree grows up, not nowhere
+//           straight ahead, or above where its region does not go on ahead: between neighbours a tree grows up, not
+//           nowhere
 // Decision  a bud drops 1 + floor(marker_rate * v / v_max) markers, v of the last season; before later metamers only
-// the
-//           buds still growing drop and claim
+//           the buds still growing drop and claim
 #include <algorithm>
 #include <cmath>
 

@@ -4,8 +4,7 @@
 // Model     Q = b * L^kappa; at a fork whose main way and laterals gathered Q_m and Q_l,
 //             v_m = v * lambda*Q_m / (lambda*Q_m + (1 - lambda)*Q_l),     v_l = v - v_m
 // Decision  every living bud reports Q; several laterals at a node share v_l in proportion to their Q; v at the root is
-// Q
-//           at the root; when nothing reports, both shares are 0
+//           Q at the root; when nothing reports, both shares are 0
 // Cost      one backward and one forward sweep over the internodes, no allocation
 #include <algorithm>
 #include <array>

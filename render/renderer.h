@@ -1,8 +1,8 @@
 // Renderer: draws a model as an architect would want it on a board.
 //
 // Light     sun and sky from one atmosphere (render/atmosphere.h); the sun through cascaded shadow maps with soft
-// edges,
-//           the sky through a blurred map of what stands overhead, so that ground under crowns is dim and never black
+//           edges, the sky through a blurred map of what stands overhead, so that ground under crowns is dim and
+//           never black
 // Surfaces  leaves let light through and keep their cover at any distance (alpha to coverage, mips that keep cover);
 //           bark, ground and obstacles take normal maps without tangents; water mirrors scene and sky by Fresnel
 // Output    sRGB, 4 channels, alpha 255 (0 where `sky` is off and nothing stands)

@@ -116,7 +116,7 @@ std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
         const float d = glm::length((Vec2(i, j) + 0.5f) * cell - at) / radius;
         float& c =
             (*cover)[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(i)];
-        c = std::min(1.0f, c + kMostShade * (1.0f - d * d));
+        c = std::min(1.0f, c + kMostShade * std::max(0.0f, 1.0f - d * d));
       }
   }
   return [cover, cells, cell](Vec2 plan) {

@@ -47,8 +47,8 @@ struct Species {
   std::string name;  ///< lower case with underscores; the name in recipes
   std::string botanical_name;
   std::vector<std::string> common_names;
-  std::vector<std::string>
-      genus_words;  ///< an unknown name that contains one is taken for this species, in the given order
+  std::vector<std::string> genus_words;  ///< an unknown name with a word that ends in one of these means this species
+  bool derived = false;                  ///< made from another in a recipe: an inventory means it only by its own name
   crowns::RepresentativeShape shape;
   distribution::PlantingRules planting;
   growth::Parameters growth;

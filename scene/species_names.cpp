@@ -18,13 +18,34 @@ std::string folded(std::string_view name) {
   return text;
 }
 
-bool contains_word(const std::string& name, std::string_view word) {
-  return name.find(folded(word)) != std::string::npos;
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-bool is_conifer(const Species& species) {
-  return std::any_of(kNeedleWords.begin(), kNeedleWords.end(),
-                     [&](std::string_view w) { return contains_word(folded(species.name), w); });
+// Lower-case words of a name.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (char c : name) {
+    if (is_letter(c))
+      words.back() += folded(std::string_view(&c, 1));
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+// A genus word stands alone or ends a compound: "black oak" and "blackoak", not "oakleaf hydrangea".
+bool names_genus(const std::vector<std::string>& words, std::string_view genus) {
+  const std::string end = folded(genus);
+  return std::any_of(words.begin(), words.end(), [&](const std::string& w) { return w.ends_with(end); });
+}
+
+// "Alpine" and "firethorn" are no conifers, so these words count only where they stand alone.
+bool names_conifer(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& w) {
+    return std::find(kNeedleWords.begin(), kNeedleWords.end(), w) != kNeedleWords.end();
+  });
 }
 
 }  // namespace
@@ -33,19 +54,22 @@ SpeciesMatch match_species(std::string_view name, std::span<const std::shared_pt
                            std::size_t fallback) {
   const std::string text = folded(name);
   if (text.empty()) return {fallback, NameMatch::fallback};
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (text == folded(known[i]->name)) return {i, NameMatch::exact};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const Species& s = *known[i];
-    if (text == folded(s.name) || text == folded(s.botanical_name)) return {i, NameMatch::exact};
+    if (s.derived) continue;
+    if (text == folded(s.botanical_name)) return {i, NameMatch::exact};
     for (const std::string& common : s.common_names)
       if (text == folded(common)) return {i, NameMatch::exact};
   }
+  const std::vector<std::string> words = words_of(name);
   for (std::size_t i = 0; i < known.size(); ++i)
-    for (const std::string& word : known[i]->genus_words)
-      if (contains_word(text, word)) return {i, NameMatch::genus};
-  const bool needles =
-      std::any_of(kNeedleWords.begin(), kNeedleWords.end(), [&](std::string_view w) { return contains_word(text, w); });
-  for (std::size_t i = 0; needles && i < known.size(); ++i)
-    if (is_conifer(*known[i])) return {i, NameMatch::leaf_type};
+    for (const std::string& genus : known[i]->genus_words)
+      if (!known[i]->derived && names_genus(words, genus)) return {i, NameMatch::genus};
+  if (names_conifer(words))
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (!known[i]->derived && names_conifer(words_of(known[i]->name))) return {i, NameMatch::leaf_type};
   return {fallback, NameMatch::fallback};
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 namespace bosquet::scene {
 
@@ -32,6 +31,7 @@ namespace {
 
 // Far beyond any file written by a person or a program of sense; deeper input overflows the parser's stack.
 constexpr int kMaxNesting = 64;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{64} << 20;
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -67,18 +67,36 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+// Looks at brackets and at the dots of keys only, not into comments and texts.
 Result<void> check_nesting(std::string_view text, const std::string& name) {
   int line = 1, depth = 0, dots = 0;
-  for (char c : text) {
-    if (c == '\n') ++line, dots = 0;
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    // A dot between digits is a decimal point; counting it too only matters on absurd lines.
-    if (c == '.') ++dots;
+  bool key = true;  // before the line's '='
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line, dots = 0, key = true, quote = 0;
+    } else if (quote) {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '=') {
+      key = false;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      depth = std::max(0, depth - 1);
+    } else if (c == '.' && key) {
+      ++dots;
+    }
     if (depth > kMaxNesting)
       return Error{fmt::format("{}:{}: lists and tables nest more than {} deep", name, line, kMaxNesting)};
+    // Numbers of a list that goes on over lines look like a key, so this is generous.
     if (dots > 16 * kMaxNesting)
-      return Error{fmt::format("{}:{}: a line with more than {} dots", name, line, 16 * kMaxNesting)};
+      return Error{fmt::format("{}:{}: a key of more than {} parts", name, line, 16 * kMaxNesting)};
   }
   return {};
 }
@@ -102,11 +120,16 @@ std::string nearest_name(std::string_view wrong, const std::vector<std::string>&
 Result<TomlFile> TomlFile::read(const std::filesystem::path& path) {
   std::error_code ec;
   if (std::filesystem::is_directory(path, ec)) return Error{fmt::format("{} is a folder, not a file", path.string())};
+  const auto bytes = std::filesystem::is_regular_file(path, ec) ? std::filesystem::file_size(path, ec) : 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Error{fmt::format("cannot open {}: no such file, or it may not be read", path.string())};
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parse(std::move(text).str(), path.string());
+  if (!in || ec) return Error{fmt::format("cannot open {}: no such file, or it may not be read", path.string())};
+  if (bytes > kMaxBytes)
+    return Error{fmt::format("{} is no recipe or species file: it has {} MB, at most {} are read", path.string(),
+                             bytes >> 20, kMaxBytes >> 20)};
+  std::string text(bytes, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(bytes));
+  if (in.gcount() != static_cast<std::streamsize>(bytes)) return Error{fmt::format("cannot read {}", path.string())};
+  return parse(text, path.string());
 }
 
 Result<TomlFile> TomlFile::parse(std::string_view text, std::string name) {
@@ -253,7 +276,6 @@ std::optional<std::vector<std::pair<std::string, double>>> TomlTable::weights(st
   if (!node) return {};
   const toml::table* table = node->as_table();
   std::vector<std::pair<std::string, double>> values;
-  std::vector<toml::source_position> where;
   if (table) {
     for (const auto& [name, value] : *table) {
       const auto v = value.value<double>();

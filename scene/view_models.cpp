@@ -150,8 +150,10 @@ Result<Model> shapes_model(const GrownScene& scene) {
   add_ground(model, scene);
   const std::size_t material = add_material(model, "shapes", Surface::obstacle);
   TriangleMesh mesh;
-  for (const crowns::Claimant& claim : claimants(scene.document)) {
-    const Tree& tree = (*scene.document.trees)[static_cast<std::size_t>(claim.id - 1)];
+  const std::vector<crowns::Claimant> claims = claimants(scene.document);
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const crowns::Claimant& claim = claims[i];
+    const Tree& tree = (*scene.document.trees)[i];
     const Vec3 foot = to_world(claim.base, claim.ground_y);
     const float base = claim.scale_height * claim.shape.trunk_height_m,
                 half = 0.5f * claim.scale_height * claim.shape.crown_height_m();

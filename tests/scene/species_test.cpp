@@ -66,10 +66,22 @@ TEST(SpeciesNames, AnUnknownSpeciesFallsBackToGenusThenLeafTypeThenDefault) {
   EXPECT_EQ(how, NameMatch::genus);
   EXPECT_EQ(matched("Douglas fir", &how), "norway_spruce");
   EXPECT_EQ(how, NameMatch::leaf_type);
+  EXPECT_EQ(matched("Alpine currant", &how), builtin_species_names().front());
+  EXPECT_EQ(how, NameMatch::fallback);
   EXPECT_EQ(matched("hickory", &how), builtin_species_names().front());
   EXPECT_EQ(how, NameMatch::fallback);
   matched("", &how);
   EXPECT_EQ(how, NameMatch::fallback);
+}
+
+TEST(SpeciesNames, ASpeciesMadeFromAnotherIsMeantOnlyByItsOwnName) {
+  auto all = builtins();
+  auto street = *builtin_species("english_oak");
+  street.name = "street_oak", street.derived = true;
+  all.insert(all.begin(), std::make_shared<const Species>(street));
+  EXPECT_EQ(all[match_species("Quercus robur", all, 0).species]->name, "english_oak");
+  EXPECT_EQ(all[match_species("blackoak", all, 0).species]->name, "english_oak");
+  EXPECT_EQ(all[match_species("street oak", all, 1).species]->name, "street_oak");
 }
 
 }  // namespace

@@ -108,7 +108,15 @@ TEST(TomlTable, AbsurdNestingIsRefusedBeforeParsing) {
   EXPECT_NE(mistake_in("a = " + std::string(100'000, '[')).find("nest more than 64 deep"), std::string::npos);
   std::string dots = "a";
   for (int i = 0; i < 50'000; ++i) dots += ".a";
-  EXPECT_NE(mistake_in(dots + " = 1").find("dots"), std::string::npos);
+  EXPECT_NE(mistake_in(dots + " = 1").find("a key of more than"), std::string::npos);
+}
+
+TEST(TomlTable, BracketsAndDotsInCommentsTextsAndNumbersAreNoNesting) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "# from [0, 1)\n";
+  text += "name = '[[[['\nmany = [";
+  for (int i = 0; i < 3000; ++i) text += "1.5, ";
+  EXPECT_TRUE(TomlFile::parse(text + "]\n", "sample.toml"));
 }
 
 TEST(TomlTable, PointsAndWeightsAreChecked) {
