@@ -240,15 +240,14 @@ float height_at(const Elevation& elevation, DVec2 place) {
 }
 
 Result<std::vector<float>> heights_at_corners(const Elevation& elevation, DVec2 south_west, int columns, int rows,
-                                              double cell_m) {
+                                              double cell_m, std::optional<DVec2> site_m) {
   assert(columns > 0 && rows > 0 && cell_m > 0);
-  const DVec2 north_east = south_west + cell_m * DVec2(columns, rows), low = elevation.low_corner(),
+  const DVec2 north_east = south_west + site_m.value_or(cell_m * DVec2(columns, rows)), low = elevation.low_corner(),
               high = elevation.high_corner();
-  // A thousandth of a cell is rounding in the file's corners. The last row and column of the site's cells may overhang the
-  // site by less than a cell, which is read at the raster's edge.
+  // A thousandth of a cell is rounding in the file's corners.
   const double slack_x = 1e-3 * elevation.cell_x_m, slack_y = 1e-3 * elevation.cell_y_m;
-  if (south_west.x < low.x - slack_x || south_west.y < low.y - slack_y || north_east.x - cell_m > high.x + slack_x ||
-      north_east.y - cell_m > high.y + slack_y)
+  if (south_west.x < low.x - slack_x || south_west.y < low.y - slack_y || north_east.x > high.x + slack_x ||
+      north_east.y > high.y + slack_y)
     return Error{fmt::format(
         "{} ({} x {} cells) does not cover the site: it reaches from east {:.10g} to {:.10g} m and north {:.10g} to "
         "{:.10g} m, the site from {:.10g} to {:.10g} and {:.10g} to {:.10g}",

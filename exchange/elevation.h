@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,9 +53,10 @@ Result<Elevation> read_elevation(const std::filesystem::path& path, const Elevat
 
 /// Heights on the corners of a site's cells: (columns + 1) x (rows + 1) samples, row 0 in the south, as a heightfield
 /// takes them. `south_west` is the site's corner in the raster's coordinates; size_m = columns * cell_m. Bilinear;
-/// outside the outermost cell centres (half a cell) the nearest. Error when the raster does not cover the site.
+/// outside the outermost cell centres (half a cell) the nearest. Error when the raster does not cover the site, which is
+/// `site_m` large when its last cells overhang it and columns * cell_m else.
 Result<std::vector<float>> heights_at_corners(const Elevation& elevation, DVec2 south_west, int columns, int rows,
-                                              double cell_m);
+                                              double cell_m, std::optional<DVec2> site_m = {});
 
 /// Height at one place in the raster's coordinates, bilinear, clamped.
 float height_at(const Elevation& elevation, DVec2 place);

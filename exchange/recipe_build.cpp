@@ -37,8 +37,8 @@ Result<terrain::Terrain> make_ground(const Recipe& recipe, scene::Georeference& 
     DVec2 corner = ground.dem_south_west;
     if (!ground.dem_corner_given)
       corner = 0.5 * (raster->low_corner() + raster->high_corner()) - 0.5 * DVec2(recipe.size_m);
-    auto heights =
-        heights_at_corners(*raster, corner, lattice->cells.x, lattice->cells.y, static_cast<double>(lattice->cell_m));
+    auto heights = heights_at_corners(*raster, corner, lattice->cells.x, lattice->cells.y,
+                                      static_cast<double>(lattice->cell_m), DVec2(recipe.size_m));
     if (!heights) return heights.error();
     auto field = terrain::Heightfield::from_samples(*lattice, *heights);
     if (!field) return field.error();

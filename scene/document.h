@@ -56,8 +56,9 @@ struct Document {
   float mature_height_m(const Tree& tree) const { return tree.scale_height * species_of(tree).shape.mature_height_m; }
 };
 
-/// Scales and trunk of a tree from what was measured of it; what is missing follows the species' open-grown allometry.
-/// Sizes beyond the mature species are allowed up to twice its size, the rest is cut to that.
+/// Scales and trunk of a tree from what was measured of it. With a trunk diameter, missing height and crown follow the
+/// species' open-grown allometry; without one, height and crown stand for each other. Sizes beyond twice the mature
+/// species' are cut to that.
 void set_measured_size(Tree& tree, const Species& species, std::optional<float> height_m,
                        std::optional<float> trunk_diameter_m, std::optional<float> crown_diameter_m);
 

@@ -30,7 +30,6 @@ struct Allometry {
 
   float height_m(float trunk_diameter_m) const { return height_factor * pow(100.0f * trunk_diameter_m, height_power); }
   float crown_m(float trunk_diameter_m) const { return crown_factor * pow(100.0f * trunk_diameter_m, crown_power); }
-  float trunk_from_height_m(float height) const { return 0.01f * pow(height / height_factor, 1.0f / height_power); }
 };
 
 template <class Parameters, class Visitor>

@@ -79,6 +79,16 @@ TEST_F(Commands, ATerminalSeesABarAndNoAbort) {
   EXPECT_NE(ran.out.find("9 trees"), std::string::npos) << ran.out;
 }
 
+TEST_F(Commands, GroundExactlyAsLargeAsTheSiteCoversIt) {
+  // 6 x 5 cells of 1.3 m: 7.8 x 6.5 m, no multiple of the ground's cells of half a metre.
+  write("odd.asc",
+        "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 1.3\nNODATA_value -1\n"
+        "1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n1 2 3 4 5 6\n");
+  ASSERT_EQ(bosquet("import odd.toml --dem odd.asc").status, 0);
+  const Ran info = bosquet("info odd.toml");
+  EXPECT_EQ(info.status, 0) << info.err;
+}
+
 TEST_F(Commands, ASecondImportKeepsThePlaceOfTheFirst) {
   write("utm.csv", "x_m,y_m,species\n500010,5600010,silver_birch\n500030,5600020,oak\n");
   write("more.csv", "x_m,y_m,species\n500015,5600012,oak\n");

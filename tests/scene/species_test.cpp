@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "growth/parameters.h"
+#include "scene/document.h"
 #include "scene/species_names.h"
 
 namespace bosquet::scene {
@@ -45,9 +46,21 @@ TEST(Species, AnUnknownNameListsTheKnownOnes) {
   EXPECT_NE(species.error().message.find("weeping_willow"), std::string::npos);
 }
 
-TEST(Species, TrunkFromHeightIsTheInverseOfHeightFromTrunk) {
-  const Allometry allometry;
-  for (float d : {0.05f, 0.3f, 0.9f}) EXPECT_NEAR(allometry.trunk_from_height_m(allometry.height_m(d)), d, 1e-4f * d);
+TEST(Species, MeasuredSizesSetTheScalesAndMissingOnesFollowAllometry) {
+  const Species oak = *builtin_species("english_oak");
+  Tree tree;
+  set_measured_size(tree, oak, 0.5f * oak.shape.mature_height_m, {}, {});
+  EXPECT_FLOAT_EQ(tree.scale_height, 0.5f);
+  EXPECT_FLOAT_EQ(tree.scale_width, 0.5f);
+  set_measured_size(tree, oak, {}, {}, 0.6f * oak.shape.crown_width_m);
+  EXPECT_FLOAT_EQ(tree.scale_height, 0.6f);
+  set_measured_size(tree, oak, {}, 0.40f, {});
+  // D = 40 cm: H = 1.23 * 40^.623, C = .672 * 40^.733
+  EXPECT_NEAR(tree.scale_height * oak.shape.mature_height_m, 12.25f, 0.05f);
+  EXPECT_NEAR(tree.scale_width * oak.shape.crown_width_m, 10.04f, 0.05f);
+  EXPECT_EQ(tree.trunk_diameter_m, 0.40f);
+  set_measured_size(tree, oak, 1000.0f, {}, {});
+  EXPECT_FLOAT_EQ(tree.scale_height, 2.0f);
 }
 
 TEST(SpeciesNames, AnExactNameIsFoundInAnyCaseAndPunctuation) {
