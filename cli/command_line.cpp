@@ -21,6 +21,33 @@ CLI::Validator within(double low, double high) {
       "");
 }
 
+// A whole number from 0 on; CLI11 lets negative and overlong ones wrap round.
+CLI::Validator whole() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool digits =
+            !text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
+        return digits ? std::string() : "'" + text + "' must be a whole number from 0 to 999999999999999999";
+      },
+      "");
+}
+
+// One of these words.
+template <class Value>
+CLI::Validator one_of(const std::map<std::string, Value>& words) {
+  return CLI::Validator(
+      [words](std::string& text) {
+        if (const auto found = words.find(text); found != words.end()) {
+          text = std::to_string(static_cast<int>(found->second));
+          return std::string();
+        }
+        std::string allowed;
+        for (const auto& [word, value] : words) allowed += (allowed.empty() ? "" : ", ") + word;
+        return "'" + text + "' must be one of: " + allowed;
+      },
+      "");
+}
+
 template <class Enum, std::size_t N>
 std::map<std::string, Enum> by_name(const std::array<std::string_view, N>& names) {
   std::map<std::string, Enum> map;
@@ -37,7 +64,7 @@ void add_common(CLI::App* app, Options& o) {
 }
 
 void add_growth(CLI::App* app, Options& o) {
-  app->add_option("--seed", o.seed, "Seed in place of the recipe's")->option_text("S");
+  app->add_option("--seed", o.seed, "Seed in place of the recipe's")->check(whole())->option_text("S");
   app->add_option("--year", o.grow.year, "Age in years at which trees are shown; default: grown up")
       ->check(within(0.0, 2000.0))
       ->option_text("N");
@@ -45,22 +72,24 @@ void add_growth(CLI::App* app, Options& o) {
       ->check(within(0.25, 4.0))
       ->option_text("K");
   app->add_option("--regions", o.grow.regions, "on: trees keep to their crown regions")
-      ->transform(CLI::CheckedTransformer(kOnOff))
+      ->transform(one_of(kOnOff))
       ->option_text("on|off");
   app->add_option("--asymmetry", o.grow.asymmetry, "on: trees lean away from their neighbours")
-      ->transform(CLI::CheckedTransformer(kOnOff))
+      ->transform(one_of(kOnOff))
       ->option_text("on|off");
 }
 
 void add_scene(CLI::App* app, Options& o) {
   add_growth(app, o);
   app->add_option("--season", o.season, "spring, summer, autumn or bare")
-      ->transform(CLI::CheckedTransformer(by_name<geometry::Season>(geometry::kSeasonNames)))
+      ->transform(one_of(by_name<geometry::Season>(geometry::kSeasonNames)))
       ->option_text("NAME");
   app->add_option("--foliage", o.foliage, "leaves, clusters or cards")
-      ->transform(CLI::CheckedTransformer(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
+      ->transform(one_of(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
       ->option_text("LEVEL");
-  app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")->option_text("N");
+  app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")
+      ->check(whole())
+      ->option_text("N");
 }
 
 void add_picture(CLI::App* app, Options& o) {
@@ -95,7 +124,10 @@ ParsedLine parse_command_line(int argc, char** argv) {
 
   CLI::App* make = app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb");
   make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
-  make->add_option("-o,--output", o.outputs, "Output; may be given several times")->required()->option_text("OUT");
+  make->add_option("-o,--output", o.outputs, "Output; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("OUT");
   add_scene(make, o), add_picture(make, o), add_common(make, o);
   make->callback([&] { o.command = Command::make; });
 
@@ -103,11 +135,11 @@ ParsedLine parse_command_line(int argc, char** argv) {
   render->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
   render->add_option("-o,--output", o.outputs, "Picture (.png)")->required()->expected(1)->option_text("OUT.png");
   render->add_option("--view", o.view, "trees, shapes, regions, arrows or plan")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ViewKind>{{"trees", ViewKind::trees},
-                                                                          {"shapes", ViewKind::shapes},
-                                                                          {"regions", ViewKind::regions},
-                                                                          {"arrows", ViewKind::arrows},
-                                                                          {"plan", ViewKind::plan}}))
+      ->transform(one_of(std::map<std::string, ViewKind>{{"trees", ViewKind::trees},
+                                                         {"shapes", ViewKind::shapes},
+                                                         {"regions", ViewKind::regions},
+                                                         {"arrows", ViewKind::arrows},
+                                                         {"plan", ViewKind::plan}}))
       ->option_text("NAME");
   render->add_option("--slice", o.slice_m, "Height in metres at which --view regions cuts")
       ->check(within(-10000.0, 10000.0))

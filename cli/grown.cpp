@@ -31,6 +31,8 @@ Result<void> refuse_overwriting(const exchange::Recipe& recipe, const Options& o
 }  // namespace
 
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {
+  if (options.file.extension() != ".toml")
+    return Error{fmt::format("{}: is no recipe, a .toml file", options.file.string())};
   auto recipe = exchange::read_recipe(options.file, options.seed);
   if (!recipe) return recipe.error();
   if (auto fine = refuse_overwriting(*recipe, options); !fine) return fine.error();

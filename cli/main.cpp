@@ -1,6 +1,7 @@
 // The bosquet command: the only place that turns errors into an exit status.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -36,6 +37,8 @@ Result<void> run(const cli::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file size limit must come back as an error of write(), not end the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const cli::ParsedLine line = cli::parse_command_line(argc, argv);
     if (line.exit_status) return *line.exit_status;

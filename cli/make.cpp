@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <set>
@@ -96,6 +97,11 @@ Result<void> check_folder(const path& target) {
   std::error_code ec;
   if (!std::filesystem::is_directory(folder, ec))
     return Error{fmt::format("{}: the folder {} does not exist; make it first", target.string(), folder.string())};
+  if (std::filesystem::exists(target, ec) && !std::filesystem::is_regular_file(target, ec) &&
+      !std::filesystem::is_directory(target, ec) && !std::filesystem::is_character_file(target, ec))
+    return Error{fmt::format("{}: is no regular file", target.string())};
+  if (::access(folder.c_str(), W_OK) != 0)
+    return Error{fmt::format("{}: no permission to write in {}", target.string(), folder.string())};
   if (std::filesystem::is_directory(target, ec))
     return Error{fmt::format("{}: is a folder, not a file", target.string())};
   return {};

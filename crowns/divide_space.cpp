@@ -60,7 +60,7 @@ struct RangeCheck {
   std::string problem;
   void operator()(const Real& r, float value) {
     const double v = static_cast<double>(value);
-    if (problem.empty() && !(v >= r.low && v <= r.high))
+    if (problem.empty() && !(v >= static_cast<float>(r.low) && v <= static_cast<float>(r.high)))
       problem = fmt::format("{} = {} is out of range: {} to {} {}", r.name, value, r.low, r.high, r.unit);
   }
 };

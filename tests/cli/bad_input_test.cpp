@@ -124,14 +124,35 @@ TEST_F(BadInput, MistakesOnTheCommandLineHaveStatusOne) {
   EXPECT_EQ(bosquet("--version").status, 0);
 }
 
-TEST_F(BadInput, AFullDiskLeavesTheOldFileUntouched) {
+TEST_F(BadInput, AFullDiskLeavesTheOldFileUntouchedWithStatusTwo) {
   write("fine.toml",
         std::string(kSite) + "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 2\nscale = [0.2, 0.3]\n");
-  write("out.csv", "precious");
-  // A file size limit of no blocks makes every write fail as a full disk does.
-  const Ran ran = shell(std::string("trap '' XFSZ; ulimit -f 0; '") + BOSQUET_PROGRAM +
-                        "' make fine.toml -o out.csv --quiet 2>&1 | cat");
-  EXPECT_EQ(file_text(folder_ / "out.csv"), "precious") << ran.out;
+  write("out.glb", "precious");
+  // A file size limit makes writes fail as a full disk does; what is printed goes through a pipe, which has none.
+  const Ran ran = shell(std::string("(ulimit -f 4; '") + BOSQUET_PROGRAM +
+                        "' make fine.toml -o out.glb --quiet; echo status $?) 2>&1 | cat");
+  EXPECT_NE(ran.out.find("status 2"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("disk is full or a size limit"), std::string::npos) << ran.out;
+  EXPECT_EQ(file_text(folder_ / "out.glb"), "precious");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) files += entry.is_regular_file();
+  EXPECT_EQ(files, 4u) << "no hidden part is left";
+}
+
+TEST_F(BadInput, NumbersAndWordsOfOptionsAreToldWithWhatIsAllowed) {
+  write("fine.toml", std::string(kSite) + "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 1\n");
+  const std::pair<const char*, const char*> lines[] = {{"--seed -1", "whole number from 0"},
+                                                       {"--max-triangles -1", "whole number from 0"},
+                                                       {"--season winter", "autumn, bare, spring, summer"},
+                                                       {"--detail nan", "0.25 to 4"},
+                                                       {"extra.csv", "extra.csv"}};
+  write("extra.csv", "precious");
+  for (const auto& [option, said] : lines) {
+    const Ran ran = bosquet(std::string("make fine.toml -o out.csv ") + option);
+    EXPECT_EQ(ran.status, 1) << option;
+    EXPECT_NE(ran.err.find(said), std::string::npos) << option << ": " << ran.err;
+  }
+  EXPECT_EQ(file_text(folder_ / "extra.csv"), "precious");
 }
 
 }  // namespace
