@@ -52,8 +52,9 @@ Error describe(const std::filesystem::path& target, int number) {
       return {fmt::format("cannot write {}: the name is too long", path)};
     case ENOSPC:
     case EDQUOT:
+      return cannot_finish(fmt::format("cannot write {}: the disk is full", path));
     case EFBIG:
-      return cannot_finish(fmt::format("cannot write {}: the disk is full or a size limit is reached", path));
+      return cannot_finish(fmt::format("cannot write {}: a file size limit is reached", path));
     default:
       return cannot_finish(fmt::format("cannot write {}: {}", path, std::strerror(number)));
   }
