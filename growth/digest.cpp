@@ -13,6 +13,7 @@ std::uint64_t digest(const Skeleton& s) {
     hasher.add(std::uint64_t{s.born[i]} << 32 | std::uint64_t{s.shed[i]} << 8 | s.order[i]);
     hasher.add(s.distal[i]).add(s.radius[i]).add(s.light[i]).add(s.vigor[i]);
   }
+  for (const std::uint8_t pipes : s.pipes) hasher.add(static_cast<int>(pipes));
   return hasher.digest();
 }
 

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/hash.h"
+#include "growth/detail.h"
 #include "growth/radii.h"
 #include "growth/tree.h"
 
@@ -59,7 +60,7 @@ Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* wo
 
   Skeleton grown = tree.wood;
   grown.radius = radii(grown);
-  return grown;
+  return input.detail == 1.0f ? grown : at_detail(grown, input.detail);
 }
 
 std::uint64_t hash(const GrowthInput& input) {

@@ -8,7 +8,7 @@
 // Decision  a metamer's lateral buds stand at its base; the first metamer of an axis carries none (its base is the
 //           parent's node)
 // Decision  h_max / l is kept >= 40: a small tree has smaller internodes, and with them r, d, shadow cells and twigs
-// Decision  detail k makes internodes k times shorter and keeps r, d and shadow cells in metres
+// Decision  detail is the resolution of the result, not a step of the model: a tree is the same at any (detail.h)
 // Holds     the skeleton is a pure function of the input: the same bits on any thread, in any order, in any build
 // Cost      about 2-5 microseconds an internode; work arrays are kept per thread from tree to tree
 #pragma once

@@ -26,10 +26,9 @@ void apply(const Overrides& o, Numbers& n) {
   take(o.shedding_threshold, n.shedding);
 }
 
-Habit prepare(const Numbers& n, float detail) {
+Habit prepare(const Numbers& n) {
   Habit h{};
-  // Straightness acts at every node, so with shorter internodes each keeps more of it.
-  h.alpha = detail == 1.0f ? n.straightness : pow(n.straightness, 1.0f / detail);
+  h.alpha = n.straightness;
   const float rest = n.tropism + n.space;
   const float scale = rest > 0.0f ? (1.0f - h.alpha) / rest : 0.0f;
   h.beta = n.tropism * scale, h.gamma = n.space * scale;
@@ -51,7 +50,7 @@ Habit prepare(const Numbers& n, float detail) {
 
 }  // namespace
 
-Habits habits_at(const Parameters& p, float share, float detail) {
+Habits habits_at(const Parameters& p, float share) {
   Habits habits;
   for (int order = 0; order < kOrders; ++order) {
     Numbers n{p.straightness,
@@ -74,7 +73,7 @@ Habits habits_at(const Parameters& p, float share, float detail) {
     for (const Phase& phase : p.phases) {
       if (share >= phase.from && concerns(phase, order)) apply(phase.change, n);
     }
-    habits[static_cast<std::size_t>(order)] = prepare(n, detail);
+    habits[static_cast<std::size_t>(order)] = prepare(n);
   }
   return habits;
 }

@@ -2,8 +2,6 @@
 //
 // Model     base table, then [[order]] tables, then [[phase]] tables (parameters.h)
 // Units     radians only as sines and cosines; metamers, not metres
-// Decision  detail k: alpha -> alpha^(1/k), beta and gamma share the rest as before; n_max stays in internodes of
-//           detail 1
 #pragma once
 
 #include <array>
@@ -30,7 +28,7 @@ struct Habit {
 using Habits = std::array<Habit, kOrders>;
 
 /// `share` is the tree's height over its final height.
-Habits habits_at(const Parameters& parameters, float share, float detail);
+Habits habits_at(const Parameters& parameters, float share);
 
 /// Index of the last phase reached; the habits change only when it does.
 int phase_at(const Parameters& parameters, float share);

@@ -10,9 +10,9 @@
 namespace bosquet::growth {
 namespace {
 
-constexpr float kLowShare = 0.02f;  ///< of the branch wood stands below the crown base
-constexpr int kLimbInternodes = 10;
-constexpr int kSlices = 12;  ///< of the crown, for its widest point
+constexpr float kLowShare = 0.02f;   ///< of the branch wood stands below the crown base
+constexpr int kLimbInternodes = 10;  ///< as grown
+constexpr int kSlices = 12;          ///< of the crown, for its widest point
 constexpr std::array<Vec2, 8> kAzimuths{{{1.0f, 0.0f},
                                          {0.9238795f, 0.3826834f},
                                          {0.7071068f, 0.7071068f},
@@ -51,9 +51,15 @@ Measures measure(const Skeleton& s, int season) {
     ++m.internodes;
     m.height_m = std::max(m.height_m, s.distal[i].y);
     if (s.order[i] == 0) continue;
-    ends.push_back(to_plan(s.distal[i]));
-    heights.push_back(s.distal[i].y);
-    sum += ends.back();
+    // A point for each internode as grown, so that pieces and merged internodes measure the same.
+    const int points = s.own_pipes(i);
+    const Vec3 run = s.distal[i] - s.proximal(i);
+    for (int k = points; k-- > 0;) {
+      const Vec3 at = s.distal[i] - run * (static_cast<float>(k) / static_cast<float>(points));
+      ends.push_back(to_plan(at));
+      heights.push_back(at.y);
+      sum += ends.back();
+    }
   }
   m.crown_diameter_m = mean_extent(ends);
   if (!ends.empty()) {
@@ -69,7 +75,7 @@ Measures measure(const Skeleton& s, int season) {
   m.lowest_limb_m = m.height_m;
   for (std::size_t i = s.size(); i-- > 0;) {
     if (!standing(i)) continue;
-    ++carried[i];
+    carried[i] += s.own_pipes(i);
     if (s.parent[i] < 0) continue;
     const auto p = static_cast<std::size_t>(s.parent[i]);
     carried[p] += carried[i];

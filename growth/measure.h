@@ -4,6 +4,7 @@
 // Decision  crown diameter: the mean over 8 azimuths of the crown's extent in plan
 // Decision  crown base: below it stands 2 % of the living branch wood, so one low twig does not count; lowest limb:
 //           where the lowest living first-order branch of 10 or more internodes leaves the trunk (the clear bole)
+// Decision  wood is counted in internodes as grown, so that a tree measures the same at any detail
 #pragma once
 
 #include "core/vec.h"

@@ -11,12 +11,12 @@ namespace {
 
 /// d^n in units of d_e^n for every internode: the pipes that pass through it.
 std::vector<double> pipes(const Skeleton& s, int season) {
-  const double share = 1.0 / static_cast<double>(s.detail);
   std::vector<double> carried(s.size(), 0.0);
   for (std::size_t i = s.size(); i-- > 0;) {
     if (s.born[i] > season) continue;
-    // A tip is d_e wide; further down each internode adds its own.
-    carried[i] = carried[i] == 0.0 ? std::max(1.0, share) : carried[i] + share;
+    // A tip is d_e wide; further down each internode adds its own. Of an internode in pieces the last one has it, and
+    // while that one is the tip it also is for the pieces below.
+    carried[i] += s.own_pipes(i);
     if (s.parent[i] >= 0) carried[static_cast<std::size_t>(s.parent[i])] += carried[i];
   }
   return carried;

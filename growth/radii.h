@@ -1,7 +1,8 @@
 // Radii: how thick each internode is, from the wood that it carries.
 //
 // Source    Longay 2014, 5.3, eq. 5.1-5.3, the pipe model (Shinozaki et al. 1964)
-// Model     d^n = sum d_i^n + p * d_e^n over the children d_i, p = 1 / detail; a tip is d_e wide
+// Model     d^n = sum d_i^n + p * d_e^n over the children d_i; a tip is d_e wide; p is 1 for an internode as it grew
+//           (at other details the number of internodes that it stands for, detail.h)
 // Decision  every internode adds its own pipe (the source is the case p = 0), and pipes of shed wood stay: that
 //           thickens old trees and lets shoots taper
 // Erratum   the derivative of d^n by n is d^n log d; the source prints 3 d^n / d_e

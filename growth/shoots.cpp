@@ -3,8 +3,6 @@
 // Source    Longay 2014, 4.3.2 (fate, eq. 4.3), 4.4 (direction, eq. 4.5; deflection), 6.6 (asymmetry, eq. 6.5)
 // Model     n = floor(v / v_max * n_max); H' = normalize(alpha*H + beta*F + gamma*E), F the direction of
 //           S + (1 - sqrt(h/h_max)) * V, S the world's up turned by the set-point angle in the vertical plane through H
-// Decision  detail k: a shoot is as long as at detail 1, n * k metamers, rounded up or down at random so that the mean
-//           is kept (n_max * k in the floor would leave short shoots out)
 // Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
 //           the bud's node turns rigidly about the node, away from the bud, base first
 // Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
@@ -227,15 +225,15 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
 bool choose_growing(Tree& tree) {
   Buds& buds = tree.buds;
   tree.growing.clear();
-  const float greatest = tree.greatest_vigor, detail = tree.input->detail;
+  const float greatest = tree.greatest_vigor;
   for (const std::int32_t bud : tree.living) {
     const auto b = static_cast<std::size_t>(bud);
     const float share = greatest > 0.0f ? std::min(1.0f, buds.flow[b] / greatest) : 0.0f;
     buds.vigor[b] = share;
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
     if (buds.node[b] < 0 && buds.claims[b] == 0) buds.claims[b] = 1, buds.claimed[b] = buds.direction[b];
-    int n = buds.claims[b] > 0 ? static_cast<int>(share * static_cast<float>(tree.habit(buds.order[b]).max_shoot)) : 0;
-    if (n > 0 && detail != 1.0f) n = static_cast<int>(static_cast<float>(n) * detail + tree.random.uniform());
+    const int n =
+        buds.claims[b] > 0 ? static_cast<int>(share * static_cast<float>(tree.habit(buds.order[b]).max_shoot)) : 0;
     if (n == 0) {
       ++buds.idle[b];
       continue;

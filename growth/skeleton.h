@@ -26,14 +26,17 @@ struct Skeleton {
   std::vector<std::uint16_t> shed;   ///< season in which it fell, or kNever
   std::vector<float> light;          ///< exposure L in [0, 1] at its upper end, last season alive
   std::vector<float> vigor;          ///< v / v_max that reached it, last season alive
+  std::vector<std::uint8_t> pipes;   ///< internodes as grown that it stands for; empty: each for itself (detail.h)
 
   int seasons = 0;                ///< seasons grown
-  float internode_length_m = 0;   ///< l of this tree
-  float detail = 1;               ///< it was grown with; each internode has 1 / detail pipes
+  float internode_length_m = 0;   ///< l of this tree, over detail
+  float detail = 1;               ///< how finely its wood is told
   float tip_diameter_m = 0.006f;  ///< d_e
   float pipe_exponent = 2.0f;     ///< n, that the radii were solved with
 
   std::size_t size() const { return parent.size(); }
+  /// Pipes that internode i adds to those of its children (radii.h).
+  int own_pipes(std::size_t i) const { return pipes.empty() ? 1 : pipes[i]; }
   bool alive(std::size_t i) const { return shed[i] == kNever; }
   /// Standing at the end of `season`.
   bool alive_at(std::size_t i, int season) const { return born[i] <= season && shed[i] > season; }

@@ -78,9 +78,9 @@ void plant(Tree& tree, const GrowthInput& input) {
   assert(input.max_height_m > 0.0f && input.detail > 0.0f);
   tree.input = &input, tree.parameters = &p;
 
-  // Sizes: everything that is told in internodes follows the length at detail 1.
+  // Sizes: everything that is told in internodes follows the length.
   const float length = std::min(p.internode_length_m, input.max_height_m / kLeastInternodes);
-  tree.length_m = length / input.detail;
+  tree.length_m = length;
   tree.occupied_m = p.occupancy_radius * length;
   tree.reach_m = (p.occupancy_radius + p.perception_depth) * length;
   tree.cos_perception = sin_cos(radians(0.5f * p.perception_angle_deg)).cos;
@@ -95,13 +95,13 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.parent.clear(), wood.axis.clear(), wood.order.clear(), wood.distal.clear(), wood.radius.clear();
   wood.born.clear(), wood.shed.clear(), wood.light.clear(), wood.vigor.clear();
   wood.seasons = 0;
-  wood.internode_length_m = tree.length_m, wood.detail = input.detail;
+  wood.internode_length_m = tree.length_m, wood.detail = 1.0f;
   wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
 
   const Box3 room = expected_room(input, tree.reach_m);
-  tree.shadow.reset(room, kShadowCell * length, p.shadow_strength / input.detail, p.shadow_falloff, p.shadow_depth);
+  tree.shadow.reset(room, kShadowCell * length, p.shadow_strength, p.shadow_falloff, p.shadow_depth);
   tree.occupancy.reset(room, tree.occupied_m);
   tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
 
@@ -120,7 +120,7 @@ void update_habits(Tree& tree) {
   const int phase = phase_at(*tree.parameters, share);
   if (phase == tree.phase) return;
   tree.phase = phase;
-  tree.habits = habits_at(*tree.parameters, share, tree.input->detail);
+  tree.habits = habits_at(*tree.parameters, share);
 }
 
 void grow_season(Tree& tree) {

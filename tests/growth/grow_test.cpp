@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -215,27 +214,6 @@ TEST(Grow, InTheShadeOfOthersTheCrownBaseIsHigher) {
     const Measures closed = measure(grow(input));
     EXPECT_GT(closed.crown_base_m, 1.5f * open.crown_base_m);
     EXPECT_LT(closed.trunk_diameter_m, open.trunk_diameter_m);
-  }
-}
-
-TEST(Grow, DetailChangesTheNumberOfInternodesNotTheTree) {
-  const Parameters p = sample_parameters();
-  std::array<Measures, 3> mean{};
-  const std::array<float, 3> details{0.5f, 1.0f, 2.0f};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      GrowthInput input = sample_input(p, seed, 14.0f);
-      input.detail = details[k];
-      const Measures m = measure(grow(input));
-      mean[k].height_m += 0.25f * m.height_m, mean[k].crown_diameter_m += 0.25f * m.crown_diameter_m;
-      mean[k].internodes += m.internodes / 4;
-    }
-  }
-  EXPECT_GT(mean[1].internodes, 3 * mean[0].internodes / 2);
-  EXPECT_GT(mean[2].internodes, 3 * mean[1].internodes / 2);
-  for (const std::size_t k : {0u, 2u}) {
-    EXPECT_NEAR(mean[k].height_m / mean[1].height_m, 1.0f, 0.05f);
-    EXPECT_NEAR(mean[k].crown_diameter_m / mean[1].crown_diameter_m, 1.0f, 0.15f);
   }
 }
 

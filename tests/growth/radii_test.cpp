@@ -18,12 +18,12 @@ TEST(Radii, ThePipeEquationHoldsAtEveryFork) {
     GrowthInput input = sample_input(p, 3);
     input.detail = detail;
     const Skeleton s = grow(input);
-    const double n = s.pipe_exponent, own = std::pow(s.tip_diameter_m, n) / detail;
+    const double n = s.pipe_exponent, own = std::pow(s.tip_diameter_m, n);
     std::vector<double> children(s.size(), 0.0);
     for (std::size_t i = s.size(); i-- > 0;) {
       const double carried = std::pow(2.0 * s.radius[i], n);
       if (children[i] > 0.0) {
-        EXPECT_NEAR(carried / (children[i] + own), 1.0, 1e-5) << "internode " << i;
+        EXPECT_NEAR(carried / (children[i] + s.own_pipes(i) * own), 1.0, 1e-5) << "internode " << i;
       }
       if (s.parent[i] >= 0) children[static_cast<std::size_t>(s.parent[i])] += carried;
     }
