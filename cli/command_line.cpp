@@ -77,6 +77,9 @@ void add_growth(CLI::App* app, Options& o) {
   app->add_option("--asymmetry", o.grow.asymmetry, "on: trees lean away from their neighbours")
       ->transform(one_of(kOnOff))
       ->option_text("on|off");
+  app->add_option("--light", o.grow.light, "off: neighbours' crowns cast no shade, whatever the recipe says")
+      ->transform(one_of(kOnOff))
+      ->option_text("on|off");
 }
 
 void add_scene(CLI::App* app, Options& o) {
@@ -170,6 +173,23 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App* show = species->add_subcommand("show", "Prints a species' file");
   show->add_option("name", o.species)->required();
   show->callback([&] { o.command = Command::species_show; });
+  CLI::App* calibrate = species->add_subcommand(
+      "calibrate", "Grows trees that stand alone and measures them beside what the species' file says");
+  calibrate->add_option("names", o.names, "Species, or files of your own (.toml); default: all built-in ones")
+      ->option_text("NAME|FILE.toml");
+  calibrate
+      ->add_option("-o,--output", o.outputs,
+                   "Writes the species file with the measured [shape] and pipe_exponent; a folder for several")
+      ->expected(1)
+      ->option_text("OUT.toml");
+  calibrate->add_option("--trees", o.calibration_trees, "Trees to grow, default 20")
+      ->check(CLI::Range(1, 1000))
+      ->option_text("N");
+  calibrate->add_flag("--quick", o.quick, "Leaves out the trees at detail 0.5 and 2");
+  calibrate->add_option("--threads", o.threads, "Threads to use; 0 is one per core")
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+  calibrate->callback([&] { o.command = Command::species_calibrate; });
 
   app.add_subcommand("ui", "The window (not in this build)");
 

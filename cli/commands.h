@@ -20,5 +20,7 @@ Result<void> run_import(const Options& options);
 Result<void> run_stats(const Options& options);
 /// `bosquet species list | show NAME`.
 Result<void> run_species(const Options& options);
+/// `bosquet species calibrate`: free-standing trees beside what their species files say.
+Result<void> run_calibrate(const Options& options);
 
 }  // namespace bosquet::cli

@@ -27,6 +27,8 @@ Result<void> run(const cli::Options& options) {
     case cli::Command::species_list:
     case cli::Command::species_show:
       return cli::run_species(options);
+    case cli::Command::species_calibrate:
+      return cli::run_calibrate(options);
     case cli::Command::none:
       break;
   }

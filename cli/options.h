@@ -14,7 +14,7 @@
 
 namespace bosquet::cli {
 
-enum class Command { none, make, render, info, import_data, stats, species_list, species_show };
+enum class Command { none, make, render, info, import_data, stats, species_list, species_show, species_calibrate };
 
 enum class ViewKind { trees, shapes, regions, arrows, plan };
 
@@ -23,6 +23,7 @@ struct Options {
   std::filesystem::path file;
   std::vector<std::filesystem::path> outputs;
   std::string species;
+  std::vector<std::string> names;  ///< of species, or .toml files of them
 
   // Scene.
   scene::GrowOptions grow;
@@ -38,6 +39,10 @@ struct Options {
 
   // Import.
   std::filesystem::path dem, inventory;
+
+  // Calibration.
+  int calibration_trees = 20;
+  bool quick = false;
 
   // Common.
   int threads = 0;

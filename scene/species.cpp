@@ -29,6 +29,23 @@ Result<Species> species_from(const TomlFile& file, const std::string& source) {
   return finish_species(file, std::move(species), source);
 }
 
+// A row must be whole: a size that is left out has no default.
+std::vector<OpenGrownSize> read_sizes(std::vector<TomlTable> tables) {
+  std::vector<OpenGrownSize> sizes;
+  for (TomlTable& t : tables) {
+    OpenGrownSize size;
+    describe(size, t);
+    t.finish();
+    for (const char* key : {"age_years", "height_m", "crown_m", "trunk_cm"})
+      if (!t.has(key)) t.error("", fmt::format("this [[size]] lacks '{}'", key));
+    if (!sizes.empty() && !(size.age_years > sizes.back().age_years))
+      t.error("age_years", fmt::format("age_years = {:g} must be above that of the [[size]] before it, {:g}",
+                                       size.age_years, sizes.back().age_years));
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 void read_species_tables(TomlTable& table, Species& species) {
@@ -38,6 +55,7 @@ void read_species_tables(TomlTable& table, Species& species) {
   if (auto t = table.table("look"))
     describe(species.look, *t), geometry::describe_foliage(species.foliage, *t), t->finish();
   if (auto t = table.table("allometry")) describe(species.allometry, *t), t->finish();
+  if (auto sizes = read_sizes(table.tables("size")); !sizes.empty()) species.sizes = std::move(sizes);
 }
 
 Result<Species> read_species_file(const std::filesystem::path& path) {

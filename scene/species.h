@@ -1,7 +1,8 @@
 // Species: everything the stages need to know of one kind of tree, from one readable file.
 //
-// Files     scene/species/NAME.toml, one table a stage: [shape] [planting] [growth] [look] [allometry]; built into the
-//           program. A recipe may override any key or bring files of its own.
+// Files     scene/species/NAME.toml, one table a stage: [shape] [planting] [growth] [look] [allometry], and [[size]] rows
+//           that the grown trees are held to; built into the program. A recipe may override any key or bring files of
+//           its own.
 // Units     as each stage describes its table
 // Source    sizes, ages, leaves and bark: the botanical figures cited in each file
 // Errors    file, line, key and what is allowed
@@ -42,6 +43,27 @@ void describe(Parameters& p, Visitor& visit) {
   visit(Real{"crown_power", "", 0.1, 1.5, "Power B in C = A D^B"}, p.crown_power);
 }
 
+/// What an open-grown tree measures at an age: a row of the tables that growth is tuned to (scene/calibration.h).
+struct OpenGrownSize {
+  float age_years = 100.0f;
+  float height_m = 20.0f;
+  float crown_m = 10.0f;
+  float trunk_cm = 50.0f;
+  float widest_point = 0.0f;  ///< 0: not told
+};
+
+template <class P, class Visitor>
+requires std::same_as<std::remove_const_t<P>, OpenGrownSize>
+void describe(P& p, Visitor& visit) {
+  visit(Real{"age_years", "years", 1, 1000, "Age from seed"}, p.age_years);
+  visit(Real{"height_m", "m", 0.1, 120, "Height of an open-grown tree at this age"}, p.height_m);
+  visit(Real{"crown_m", "m", 0.05, 60, "Its crown diameter"}, p.crown_m);
+  visit(Real{"trunk_cm", "cm", 0.1, 500, "Its trunk diameter at 1.3 m"}, p.trunk_cm);
+  visit(Real{"widest_point", "", 0, 1,
+             "Where its crown is widest, as a share of the crown's length from below; 0: not told"},
+        p.widest_point);
+}
+
 struct Species {
   std::string name;  ///< lower case with underscores; the name in recipes
   std::string botanical_name;
@@ -54,6 +76,7 @@ struct Species {
   geometry::Look look;
   geometry::FoliageLook foliage;
   Allometry allometry;
+  std::vector<OpenGrownSize> sizes;  ///< in order of age; may be empty
 };
 
 /// Reads the keys that `table` gives over what `species` already says: a species file, or overrides in a recipe.

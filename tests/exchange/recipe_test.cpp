@@ -169,6 +169,7 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(geometry::Look{});
   add(geometry::FoliageLook{});
   add(scene::Allometry{});
+  add(scene::OpenGrownSize{});
   add(crowns::SpaceOptions{});
   add(crowns::AsymmetryOptions{});
   EXPECT_GT(rows.rows.size(), 100u);
