@@ -30,6 +30,7 @@ class Reader {
     for (TomlTable& table : root.tables("planting")) read_planting(table);
     if (auto table = root.table("space")) read_space(*table);
     if (auto table = root.table("asymmetry")) describe(recipe_.document.asymmetry, *table), table->finish();
+    if (auto table = root.table("light")) describe(recipe_.document.light, *table), table->finish();
     for (TomlTable& table : root.tables("camera")) read_camera(table);
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("export")) {

@@ -14,6 +14,7 @@
 
 #include "core/vec.h"
 #include "crowns/asymmetry.h"
+#include "crowns/canopy_light.h"
 #include "crowns/crown_space.h"
 #include "scene/model.h"
 #include "scene/species.h"
@@ -47,6 +48,7 @@ struct Document {
   std::shared_ptr<const std::vector<Tree>> trees;
   crowns::SpaceOptions space;
   crowns::AsymmetryOptions asymmetry;
+  crowns::LightOptions light;
   std::vector<Camera> cameras;
   Sun sun;
   std::size_t max_triangles = 3'000'000;  ///< of an export; 0 is no limit

@@ -21,12 +21,14 @@ float growth_cost(const Document& document, const Tree& tree) {
 }
 
 GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::CrownRegion* region,
-                    const Vec3& asymmetry, const GrowOptions& options, const Progress* progress, std::string& warning) {
+                    const growth::Transmittance* light, const Vec3& asymmetry, const GrowOptions& options,
+                    const Progress* progress, std::string& warning) {
   const Species& species = document.species_of(tree);
   growth::GrowthInput input;
   input.parameters = &species.growth;
   input.max_height_m = document.mature_height_m(tree);
   input.region = region;
+  input.light = light;
   input.asymmetry = asymmetry;
   input.detail = options.detail;
   input.seed = document.seed;
@@ -94,6 +96,11 @@ Result<GrownScene> grow_scene(const Document& document, const GrowOptions& optio
   scene.seconds["crowns"] = watch.restart();
   if (progress && progress->cancelled()) return cancelled;
 
+  const bool shaded = options.light && options.regions && document.light.canopy_light;
+  if (shaded) scene.light = crowns::canopy_light(scene.space, document.light, progress);
+  scene.seconds["light"] = watch.restart();
+  if (progress && progress->cancelled()) return cancelled;
+
   std::vector<float> costs;
   for (const Tree& tree : trees) costs.push_back(growth_cost(document, tree));
   scene.trees.resize(trees.size());
@@ -103,8 +110,13 @@ Result<GrownScene> grow_scene(const Document& document, const GrowOptions& optio
     if (progress && progress->cancelled()) return;
     crowns::CrownRegion region;
     if (options.regions) region = crowns::region(scene.space, i);
-    scene.trees[i] = grow_tree(document, trees[i], options.regions ? &region : nullptr, asymmetry[i], options, progress,
-                               warnings[i]);
+    growth::Transmittance light;
+    if (shaded) {
+      const crowns::TreeLight& sky = scene.light.of(i);
+      light = {sky.low, 1.0f, sky.cells, sky.level};
+    }
+    scene.trees[i] = grow_tree(document, trees[i], options.regions ? &region : nullptr, shaded ? &light : nullptr,
+                               asymmetry[i], options, progress, warnings[i]);
     if (progress) progress->advance();
   });
   if (progress && progress->cancelled()) return cancelled;

@@ -1,6 +1,6 @@
 // Grown scene: a document with everything its trees have become.
 //
-// Model     divide_space, asymmetry, then every tree grown alone and in parallel (Longay 2014, 6.1); the stages of the
+// Model     divide_space, asymmetry, canopy light, then every tree grown alone and in parallel (Longay 2014, 6.1); the stages of the
 //           source's comparisons can be switched off one by one
 // Holds     the same document and options give the same skeletons for any number of threads
 // Errors    a crown space too large for memory; cancelled work (kind cannot_finish)
@@ -13,6 +13,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
+#include "crowns/canopy_light.h"
 #include "crowns/crown_space.h"
 #include "growth/measure.h"
 #include "growth/skeleton.h"
@@ -23,6 +24,7 @@ namespace bosquet::scene {
 struct GrowOptions {
   bool regions = true;        ///< trees keep to their crown regions
   bool asymmetry = true;      ///< trees lean away from their neighbours
+  bool light = true;          ///< neighbours' crowns shade (where regions are on and the document has it on)
   float detail = 1.0f;        ///< internodes are this many times shorter
   std::optional<float> year;  ///< show every tree at this age; missing: at its final height
 };
@@ -41,8 +43,9 @@ using Seconds = std::map<std::string, double>;
 struct GrownScene {
   Document document;
   crowns::CrownSpace space;
+  crowns::CanopyLight light;     ///< empty when canopy light is off
   std::vector<GrownTree> trees;  ///< in the document's order
-  Seconds seconds;               ///< "crowns", "growth"
+  Seconds seconds;               ///< "crowns", "light", "growth"
   std::vector<std::string> warnings;
 
   std::size_t internodes() const;         ///< living

@@ -172,6 +172,7 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(scene::OpenGrownSize{});
   add(crowns::SpaceOptions{});
   add(crowns::AsymmetryOptions{});
+  add(crowns::LightOptions{});
   EXPECT_GT(rows.rows.size(), 100u);
   for (const std::string& row : rows.rows) EXPECT_TRUE(lines.count(row)) << "docs/recipe.md lacks: " << row;
 }
