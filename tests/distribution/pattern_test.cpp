@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <string>
 
 #include "core/random.h"
 
@@ -110,6 +112,41 @@ TEST(Pattern, NearestDistancesAreThoseOfTheSlowSearch) {
         least = std::min(least, static_cast<double>(glm::distance(glm::dvec2(points[i]), glm::dvec2(points[j]))));
     EXPECT_NEAR(nearest[i], least, 1e-9);
   }
+}
+
+// One kind of Lansing Woods (Gerrard 1969), from the example's inventory.
+std::vector<Vec2> lansing(const std::string& kind) {
+  std::ifstream file(BOSQUET_SOURCE_DIR "/examples/data/lansing_woods.csv");
+  std::vector<Vec2> points;
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find(','), second = line.find(',', first + 1);
+    if (second == std::string::npos || line.substr(second + 1) != kind) continue;
+    points.push_back({std::stof(line), std::stof(line.substr(first + 1))});
+  }
+  return points;
+}
+
+// Computed by spatstat.explore 3.0-6 for R 4.2.2: Kest and Kcross (correction = "isotropic"), mean of nndist, and pcf
+// (stoyan = 0.15, divisor "d", isotropic), which smooths by a fast Fourier transform.
+TEST(Pattern, AgreesWithSpatstatOnLansingWoods) {
+  const Box2 window{{0, 0}, {281.7f, 281.7f}};
+  const std::vector<double> t{2.005, 5.005, 10.005, 20.005};
+  const auto compare = [](const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance) {
+    for (std::size_t n = 0; n < theirs.size(); ++n)
+      EXPECT_NEAR(ours[n] / theirs[n], 1.0, tolerance) << "at t number " << n;
+  };
+  const auto black_oak = lansing("blackoak"), maple = lansing("maple"), hickory = lansing("hickory");
+  ASSERT_EQ(black_oak.size(), 135u);
+  ASSERT_EQ(maple.size(), 514u);
+  // Positions are floats here: a pair may fall on the other side of t, a ten-thousandth of the pairs.
+  compare(ripley_k(black_oak, window, t), {35.09337313, 263.20029851, 1015.71603575, 3041.91924011}, 1e-4);
+  compare(ripley_k(maple, window, t), {34.30821012, 173.81848470, 585.24032729, 2148.04779559}, 1e-4);
+  compare(cross_k(hickory, maple, window, t), {3.733396976, 37.235372477, 178.474549204, 793.208467400}, 1e-4);
+  compare(cross_k(maple, hickory, window, t), {3.84963360, 37.17711658, 177.79728996, 784.61617451}, 1e-4);
+  compare(pair_correlation(black_oak, window, t), {2.559142041, 2.829234861, 2.958262658, 1.700043080}, 0.01);
+  double sum = 0;
+  for (const double d : nearest_distances(maple)) sum += d;
+  EXPECT_NEAR(sum / 514, 5.054075579, 1e-5);
 }
 
 TEST(Pattern, FewerThanTwoPointsHaveNoPattern) {
