@@ -116,7 +116,7 @@ double displacement(const CrownSpace& space, std::size_t me) {
   for (const LayerShare& share : space.shares(me)) {
     const double n = static_cast<double>(share.voxels);
     const DVec2 centre = DVec2(static_cast<double>(share.east_sum), static_cast<double>(share.north_sum)) / n + 0.5;
-    const double radius = farthest(space, static_cast<std::int32_t>(me), share, centre);
+    const double radius = farthest(space, space.slot_of(me), share, centre);
     const DVec2 offset = base - centre;
     const double distance = std::sqrt(offset.x * offset.x + offset.y * offset.y);
     if (radius > 0.0) sum += n * std::min(1.0, distance / radius);

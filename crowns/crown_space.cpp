@@ -33,7 +33,14 @@ const SpaceTile* CrownSpace::find_tile(IVec2 tile) const {
 std::int32_t CrownSpace::owner(IVec3 voxel) const {
   const SpaceTile* tile = find_tile({tile_of(voxel.x), tile_of(voxel.z)});
   if (!tile || !tile->has(voxel.y)) return kFree;
-  return tile->owner[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kEdge + inside(voxel.x))];
+  const std::int32_t held =
+      tile->owner[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kEdge + inside(voxel.x))];
+  return held < 0 ? held : claimant_of(held);
+}
+
+std::int32_t CrownSpace::id(IVec3 voxel) const {
+  const std::int32_t held = owner(voxel);
+  return held < 0 ? id_of_owner(held) : claimants_[static_cast<std::size_t>(held)].id;
 }
 
 std::uint64_t CrownSpace::ticks(IVec3 voxel) const {
@@ -43,7 +50,7 @@ std::uint64_t CrownSpace::ticks(IVec3 voxel) const {
 }
 
 std::int32_t CrownSpace::owner_at(const Vec3& world) const {
-  return owner({floor_index(world.x, voxel_m_), floor_index(world.y, layer_m_), floor_index(-world.z, voxel_m_)});
+  return owner({floor_index(world.x, voxel_m()), floor_index(world.y, layer_m()), floor_index(-world.z, voxel_m())});
 }
 
 std::size_t CrownSpace::claimed_voxels(std::size_t claimant) const {
@@ -53,7 +60,7 @@ std::size_t CrownSpace::claimed_voxels(std::size_t claimant) const {
 }
 
 Vec2 CrownSpace::centroid(const LayerShare& share) const {
-  const double n = static_cast<double>(share.voxels), edge = static_cast<double>(voxel_m_);
+  const double n = static_cast<double>(share.voxels), edge = static_cast<double>(voxel_m());
   return {static_cast<float>((static_cast<double>(share.east_sum) / n + 0.5) * edge),
           static_cast<float>((static_cast<double>(share.north_sum) / n + 0.5) * edge)};
 }
@@ -61,7 +68,8 @@ Vec2 CrownSpace::centroid(const LayerShare& share) const {
 std::size_t CrownSpace::bytes() const {
   std::size_t sum = 0;
   for (const auto& tile : tiles_)
-    sum += tile->owner.size() * sizeof(std::int32_t) + tile->ticks.size() * sizeof(std::uint64_t);
+    sum += tile->owner.size() * sizeof(std::int32_t) + tile->ticks.size() * sizeof(std::uint64_t) +
+           tile->ground->size() * sizeof(std::int32_t);
   return sum;
 }
 
@@ -86,7 +94,7 @@ CrownRegion region(const CrownSpace& space, std::size_t claimant) {
                             static_cast<std::size_t>(out.cells.z);
   out.bits.assign((cells + 63) / 64, 0);
 
-  const auto me = static_cast<std::int32_t>(claimant);
+  const std::int32_t me = space.slot_of(claimant);
   for (const LayerShare& share : shares)
     for (std::int32_t tn = tile_of(share.low.y); tn <= tile_of(share.high.y); ++tn)
       for (std::int32_t te = tile_of(share.low.x); te <= tile_of(share.high.x); ++te) {
@@ -130,10 +138,10 @@ SpaceSlice slice(const CrownSpace& space, float y, const Box2& area) {
     const IVec2 from = glm::max(low, corner), to = glm::min(high, corner + (kEdge - 1));
     for (std::int32_t j = from.y; j <= to.y; ++j)
       for (std::int32_t i = from.x; i <= to.x; ++i) {
-        const std::int32_t c = owner[(j - corner.y) * kEdge + (i - corner.x)];
-        if (c >= 0)
-          out.ids[static_cast<std::size_t>(j - low.y) * static_cast<std::size_t>(out.width) +
-                  static_cast<std::size_t>(i - low.x)] = space.claimants()[static_cast<std::size_t>(c)].id;
+        const std::int32_t held = owner[(j - corner.y) * kEdge + (i - corner.x)];
+        out.ids[static_cast<std::size_t>(j - low.y) * static_cast<std::size_t>(out.width) +
+                static_cast<std::size_t>(i - low.x)] =
+            held < 0 ? id_of_owner(held) : space.claimants()[static_cast<std::size_t>(space.claimant_of(held))].id;
       }
   }
   return out;

@@ -13,6 +13,9 @@
 //           to that tree. The volume overhangs the site by the largest reach, with the ground's edge height there.
 // Decision  the voxel under a base is its tree's in every layer it takes part in, so no tree is left without a region;
 //           of several bases in one voxel the lowest key keeps it and the others, in key order, take the nearest free
+// Decision  obstacles hold their voxels before any front starts. A tree takes part up to the first layer in which an
+//           obstacle stands over its base; a tree whose base lies in an obstacle has the voxels over its base and no
+//           more. Hero trees claim theirs after the division (hero_claim.h)
 //
 // Units     metres
 // Lattice   voxel (i, k, j) = (east, up, north) spans [i, i+1] * voxel_m east, [k, k+1] * layer_m up, [j, j+1] *
@@ -21,7 +24,6 @@
 // Holds     each region is 4-connected in every layer from its tree's base up; the division is the same for any number
 //           of threads and any order of trees (ties in time go by key)
 // Errors    options out of range, trees that are not numbers, and spaces beyond memory_gb come back as one message
-// Later     owners below kFree are kept for obstacles and trees that are already there
 #pragma once
 
 #include <concepts>
@@ -38,6 +40,8 @@
 #include "core/result.h"
 #include "core/vec.h"
 #include "crowns/crown_region.h"
+#include "crowns/hero_claim.h"
+#include "crowns/obstacle.h"
 #include "crowns/representative_shape.h"
 
 namespace bosquet::terrain {
@@ -60,6 +64,16 @@ struct Claimant {
   float trunk_radius_m() const { return 0.5f * scale_width * shape.trunk_width_m; }
   float crown_radius_m() const { return 0.5f * scale_width * shape.crown_width_m; }
   float projected_area_m2() const { return shape.projected_area_m2(scale_width); }
+
+  bool operator==(const Claimant&) const = default;
+};
+
+/// What stands there before the trees that ask for room.
+struct Standing {
+  std::vector<Obstacle> obstacles;
+  std::vector<HeroClaim> heroes;
+
+  bool operator==(const Standing&) const = default;
 };
 
 struct SpaceOptions {
@@ -69,7 +83,10 @@ struct SpaceOptions {
   float reach_factor = 1.5f;
   float overhang_m = -1.0f;  ///< below 0: the largest reach; when that is infinite, 0
   float memory_gb = 8.0f;
-  bool keep_ticks = false;  ///< keep arrival times too (8 bytes a voxel), for comparisons
+  bool keep_ticks = false;  ///< keep arrival times too (8 bytes a voxel more), for comparisons
+
+  VoxelSize voxel() const { return {voxel_m, layer_m}; }
+  bool operator==(const SpaceOptions&) const = default;
 };
 
 template <class P, class Visitor>
@@ -87,7 +104,11 @@ void describe(P& p, Visitor& visit) {
   visit(Real{"memory_gb", "GB", 0.01, 1000, "A crown space that would take more memory is refused"}, p.memory_gb);
 }
 
-inline constexpr std::int32_t kFree = -1;      ///< owner of a voxel that no tree claimed
+inline constexpr std::int32_t kFree = -1;  ///< owner of a voxel that nobody claimed
+/// Owner of a voxel of an obstacle or hero tree with this id, below kFree; and back.
+inline constexpr std::int32_t owner_of_id(std::int32_t id) { return id - 1; }
+inline constexpr std::int32_t id_of_owner(std::int32_t owner) { return owner + 1; }
+
 inline constexpr std::int32_t kTileEdge = 64;  ///< columns along a tile's edge
 inline constexpr std::int32_t kTileColumns = kTileEdge * kTileEdge;
 
@@ -97,6 +118,8 @@ struct LayerShare {
   std::int64_t voxels = 0;
   std::int64_t east_sum = 0, north_sum = 0;  ///< of the voxels' i and j
   IVec2 low{0}, high{0};                     ///< columns (i, j), both included
+
+  bool operator==(const LayerShare&) const = default;
 };
 
 /// Owners in a stack of layers over 64 x 64 columns. Immutable once it stands in a CrownSpace, so copies share it.
@@ -104,8 +127,17 @@ struct SpaceTile {
   IVec2 tile{0};                 ///< columns tile * 64 .. tile * 64 + 63, (east, north)
   std::int32_t first_layer = 0;  ///< lowest layer kept
   std::int32_t layers = 0;
-  std::vector<std::int32_t> owner;   ///< claimant's index or kFree, at ((k - first_layer) * 64 + j) * 64 + i
+  std::int32_t highest_base = 0;  ///< no tree that reaches the tile has its base in a higher layer
+  /// At ((k - first_layer) * 64 + j) * 64 + i: a tree's slot (CrownSpace::claimant_of), kFree, or owner_of_id.
+  std::vector<std::int32_t> owner;
   std::vector<std::uint64_t> ticks;  ///< arrival times (propagation.h), same order; empty unless asked for
+  std::shared_ptr<const std::vector<std::int32_t>> ground;  ///< lowest layer above the ground, for each column
+  /// What a hero tree's voxel held before, by place in `owner`.
+  struct Under {
+    std::uint32_t place;
+    std::int32_t owner;
+  };
+  std::vector<Under> under_heroes;
 
   bool has(std::int32_t layer) const { return layer >= first_layer && layer < first_layer + layers; }
   std::size_t offset(std::int32_t layer) const {
@@ -113,16 +145,22 @@ struct SpaceTile {
   }
 };
 
+struct SpaceLayout;  // space_layout.h: where claimants stand on the lattice
+
 class CrownSpace {
  public:
   CrownSpace() = default;
 
-  float voxel_m() const { return voxel_m_; }
-  float layer_m() const { return layer_m_; }
+  float voxel_m() const { return options_.voxel_m; }
+  float layer_m() const { return options_.layer_m; }
+  const SpaceOptions& options() const { return options_; }
   std::span<const Claimant> claimants() const { return claimants_; }
+  const Standing& standing() const { return standing_; }  ///< sorted by falling id
 
-  /// Claimant's index that owns voxel (i, k, j), or kFree.
+  /// What owns voxel (i, k, j): a claimant's index, kFree, or owner_of_id of an obstacle or hero tree.
   std::int32_t owner(IVec3 voxel) const;
+  /// Its id: positive for a tree, negative for an obstacle or hero tree, 0 when free.
+  std::int32_t id(IVec3 voxel) const;
   /// The same for a world point.
   std::int32_t owner_at(const Vec3& world) const;
   /// Arrival time in ticks; 0 when free or not kept.
@@ -131,9 +169,7 @@ class CrownSpace {
   std::size_t claimed_voxels() const { return claimed_; }
   std::size_t claimed_voxels(std::size_t claimant) const;
   /// The claimant's layers, from the lowest up.
-  std::span<const LayerShare> shares(std::size_t claimant) const {
-    return {shares_.data() + first_share_[claimant], first_share_[claimant + 1] - first_share_[claimant]};
-  }
+  std::span<const LayerShare> shares(std::size_t claimant) const { return *shares_[claimant]; }
   /// Centroid of a share, plan metres.
   Vec2 centroid(const LayerShare& share) const;
 
@@ -144,25 +180,47 @@ class CrownSpace {
   /// The tile with this index, or null.
   const SpaceTile* find_tile(IVec2 tile) const;
 
+  /// Tiles hold trees by slots, which stay when claimants before them in the list go. A slot's claimant, and back.
+  std::int32_t claimant_of(std::int32_t slot) const { return claimant_of_[static_cast<std::size_t>(slot)]; }
+  std::int32_t slot_of(std::size_t claimant) const { return slot_of_[claimant]; }
+
  private:
   friend class SpaceBuilder;
+  friend class SpaceUpdater;
 
-  float voxel_m_ = 1.0f, layer_m_ = 1.0f;
+  SpaceOptions options_;
   std::vector<Claimant> claimants_;
+  Standing standing_;
+  std::shared_ptr<const SpaceLayout> layout_;
+  std::vector<std::int32_t> slot_of_;      ///< of each claimant
+  std::vector<std::int32_t> claimant_of_;  ///< of each slot; -1 when its tree is gone
   std::vector<std::shared_ptr<const SpaceTile>> tiles_;
-  std::vector<LayerShare> shares_;
-  std::vector<std::size_t> first_share_;  ///< claimant c's shares are [first_share_[c], first_share_[c + 1])
+  std::vector<std::shared_ptr<const std::vector<LayerShare>>> shares_;  ///< of each claimant
   std::size_t claimed_ = 0;
 };
 
 /// Divides the volume above `terrain` among the trees. Layers are divided in parallel; a step of progress is a layer.
+Result<CrownSpace> divide_space(std::span<const Claimant> trees, const Standing& standing,
+                                const terrain::Terrain& terrain, const SpaceOptions& options,
+                                Progress* progress = nullptr);
 Result<CrownSpace> divide_space(std::span<const Claimant> trees, const terrain::Terrain& terrain,
                                 const SpaceOptions& options, Progress* progress = nullptr);
+
+/// A tree that stands where no tree can, or an obstacle or hero tree off the site.
+struct SpaceProblem {
+  enum class Kind { base_in_obstacle, base_in_trunk, obstacle_off_site, hero_off_site };
+  Kind kind;
+  std::int32_t id = 0;     ///< of the tree, obstacle or hero tree
+  std::int32_t other = 0;  ///< of the obstacle, or of the tree whose trunk it is
+};
+
+/// All of them, by kind, then id. Of two trees in each other's trunks the thinner one (of equals the higher key) is named.
+std::vector<SpaceProblem> problems(const CrownSpace& space, Vec2 site_m);
 
 /// The region of one claimant in its tree's frame, the tight box around its voxels. The grid's third axis runs south.
 CrownRegion region(const CrownSpace& space, std::size_t claimant);
 
-/// A horizontal cut: ids of the owners, 0 where free.
+/// A horizontal cut: ids of the owners, 0 where free, below 0 for obstacles and hero trees.
 struct SpaceSlice {
   Vec2 low{0.0f};  ///< plan position of the south-west corner
   float voxel_m = 1.0f;
@@ -170,7 +228,7 @@ struct SpaceSlice {
   std::vector<std::int32_t> ids;       ///< at j * width + i, southernmost row first
 };
 
-/// The layer that holds world height `y`, within `area` (plan metres) and where there are trees.
+/// The layer that holds world height `y`, within `area` (plan metres) and where there are tiles.
 SpaceSlice slice(const CrownSpace& space, float y, const Box2& area);
 
 }  // namespace bosquet::crowns

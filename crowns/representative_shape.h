@@ -25,6 +25,7 @@ struct RepresentativeShape {
     const float radius = 0.5f * scale_width * crown_width_m;
     return kPi * radius * radius;
   }
+  bool operator==(const RepresentativeShape&) const = default;
 };
 
 template <class P, class Visitor>

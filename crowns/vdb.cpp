@@ -37,7 +37,7 @@ Grid::Ptr new_grid() {
 
 openvdb::Coord coord(IVec3 voxel) { return {voxel.x, voxel.y, -1 - voxel.z}; }
 
-std::string metadata_key(std::int32_t id) { return fmt::format("tree {}", id); }
+std::string metadata_key(std::int32_t id) { return fmt::format("{} {}", id < 0 ? "standing" : "tree", id); }
 
 // One leaf of a tile: 8 x 8 columns from (i0, j0) inside the tile, 8 layers from `layer0`. Null when all are free.
 Leaf* fill_leaf(const CrownSpace& space, const SpaceTile& tile, std::int32_t i0, std::int32_t j0, std::int32_t layer0) {
@@ -50,11 +50,12 @@ Leaf* fill_leaf(const CrownSpace& space, const SpaceTile& tile, std::int32_t i0,
     const std::int32_t* owner = tile.owner.data() + tile.offset(layer0 + y);
     for (std::int32_t j = 0; j < kLeafEdge; ++j)
       for (std::int32_t i = 0; i < kLeafEdge; ++i) {
-        const std::int32_t claimant = owner[(j0 + j) * kTileEdge + i0 + i];
-        if (claimant < 0) continue;
+        const std::int32_t held = owner[(j0 + j) * kTileEdge + i0 + i];
+        if (held == kFree) continue;
         if (!leaf) leaf = new Leaf(origin, 0);
         const auto offset = static_cast<openvdb::Index>((i << 6) | (y << 3) | (kLeafEdge - 1 - j));
-        leaf->setValueOn(offset, space.claimants()[static_cast<std::size_t>(claimant)].id);
+        leaf->setValueOn(offset, held < 0 ? id_of_owner(held)
+                                          : space.claimants()[static_cast<std::size_t>(space.claimant_of(held))].id);
       }
   }
   return leaf;

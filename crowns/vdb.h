@@ -1,7 +1,7 @@
 // The crown space as a sparse OpenVDB grid, and its .vdb file that film tools open.
 //
-// Grid      Int32, name "trees"; a voxel holds its tree's id; 0 is the background and means free. Ids below 0 are kept
-//           for obstacles and trees that are already there.
+// Grid      Int32, name "trees"; a voxel holds its tree's id; 0 is the background and means free. Ids below 0 are
+//           obstacles and hero trees.
 // Frame     index (x, y, z) = (i, k, -1 - j) of the lattice of crown_space.h: x east, y up, z south. The grid's
 //           transform maps index 0.5 past it, the voxel's centre, to world metres, so tools see the forest where glTF
 //           shows it.
@@ -49,7 +49,7 @@ class TreeGrid {
 TreeGrid build_grid(const CrownSpace& space);
 
 /// Writes the grid beside `path` and renames it into place. `names` (id, name) go into the grid's metadata as
-/// "tree <id>".
+/// "tree <id>", of obstacles and hero trees as "standing <id>".
 Result<void> write_vdb(const TreeGrid& grid, const std::filesystem::path& path,
                        const std::vector<std::pair<std::int32_t, std::string>>& names = {});
 
