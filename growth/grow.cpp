@@ -14,11 +14,10 @@ namespace {
 /// What every living internode got in the last season; fallen wood has its own already.
 void record_light_and_vigor(Tree& tree) {
   Skeleton& wood = tree.wood;
-  const Transmittance* sky = tree.input->light;
+  tree.work.shadow_cells += tree.shadow.settle();
   for (std::size_t i = 0; i < wood.size(); ++i) {
     if (!wood.alive(i)) continue;
-    const float open = sky ? sky->at(wood.distal[i]) : 1.0f;
-    wood.light[i] = std::max(kLeastLight, open * tree.shadow.exposure(wood.distal[i]));
+    wood.light[i] = light_at(tree, wood.distal[i]);
     if (wood.born[i] + 1 < tree.season) wood.vigor[i] = tree.vigor_share(i);
   }
 }

@@ -41,6 +41,7 @@ struct GrowthWork {
   std::uint64_t markers_tested = 0;
   std::uint64_t bud_visits = 0;
   std::uint64_t shadow_updates = 0;  ///< internodes that cast, took back or moved their shadow
+  std::uint64_t shadow_cells = 0;    ///< cells whose shadow was brought up to date for them
 };
 
 /// Grows one tree. Callers run it for many trees in parallel. Asks progress (may be null) once a season; after a cancel

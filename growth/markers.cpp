@@ -11,21 +11,24 @@ void PerceptionSamples::reset(float depth, float cos_half_angle, bool planar) {
   if (depth == depth_ && cos_half_angle == cos_ && planar == planar_) return;
   depth_ = depth, cos_ = cos_half_angle, planar_ = planar;
   points_.resize(kCount);
-  RandomStream random(0x70657263, 0, Purpose::growth);
   const float outer = 1.0f + depth;
   const float half_angle = acos(cos_half_angle);
-  for (Vec3& p : points_) {
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    // Multiples of 1/g, 1/g^2, 1/g^3 without their whole parts, g^4 = g + 1, in units of 2^-32.
+    const auto even = [&](std::uint32_t step) { return static_cast<float>((0x80000000u + i * step) >> 8) * 0x1p-24f; };
+    const float a = even(0xd1b54a33u), b = even(0xabc98389u), c = even(0x8cb92ba7u);
+    Vec3& p = points_[i];
     // In a plane the basis' first direction lies in it and areas count instead of volumes.
     if (planar) {
-      const float radius = std::sqrt(1.0f + random.uniform() * (outer * outer - 1.0f));
-      const SinCos angle = sin_cos(half_angle * random.uniform(-1.0f, 1.0f));
+      const float radius = std::sqrt(1.0f + a * (outer * outer - 1.0f));
+      const SinCos angle = sin_cos(half_angle * (2.0f * b - 1.0f));
       p = {radius * angle.sin, 0.0f, radius * angle.cos};
       continue;
     }
-    const float radius = pow(1.0f + random.uniform() * (outer * outer * outer - 1.0f), 1.0f / 3.0f);
-    const float cos = 1.0f - random.uniform() * (1.0f - cos_half_angle);
+    const float radius = pow(1.0f + a * (outer * outer * outer - 1.0f), 1.0f / 3.0f);
+    const float cos = 1.0f - b * (1.0f - cos_half_angle);
     const float sin = std::sqrt(std::max(0.0f, 1.0f - cos * cos));
-    const SinCos azimuth = sin_cos(2.0f * kPi * random.uniform());
+    const SinCos azimuth = sin_cos(2.0f * kPi * c);
     p = {radius * sin * azimuth.cos, radius * sin * azimuth.sin, radius * cos};
   }
 }

@@ -3,7 +3,8 @@
 // Source    Runions et al. 2007; Longay 2014, 4.2.1 and fig. 4.4
 // Model     a bud perceives what lies between r and r + d from it, inside the cone of half-angle zeta / 2 about its
 //           direction; a marker goes to the nearest bud that perceives it, the older one of two equally near
-// Decision  markers are drawn, uniform in volume, from 4096 fixed points of the perception volume turned to the bud
+// Decision  markers are drawn from 1024 fixed points of the perception volume, turned to the bud. The points are even in
+//           volume (the additive recurrence of Roberts 2018), more so than 4096 random ones, and stay in the cache
 // Cost      a marker: a few nanoseconds when refused by the occupied cell it falls in; a search over near buds else
 #pragma once
 
@@ -20,7 +21,7 @@ namespace bosquet::growth {
 /// Points of a perception volume about +z with r = 1.
 class PerceptionSamples {
  public:
-  static constexpr std::uint32_t kCount = 4096;
+  static constexpr std::uint32_t kCount = 1024;
 
   /// `depth` is d / r. Keeps what it has when nothing changed.
   void reset(float depth, float cos_half_angle, bool planar);

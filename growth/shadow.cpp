@@ -1,28 +1,30 @@
 #include "growth/shadow.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bosquet::growth {
 
-void ShadowGrid::reset(const Box3& room, float cell_m, float strength, float falloff, int depth) {
-  cell_m_ = cell_m, inverse_ = 1.0f / cell_m, depth_ = depth;
+void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float strength, float falloff, int depth) {
+  anchor_ = anchor, inverse_ = 1.0f / cell_m, depth_ = depth;
   amount_.fill(0);
   float amount = strength * kUnit;
   for (int q = 0; q <= depth; ++q, amount /= falloff) {
     amount_[static_cast<std::size_t>(q)] = static_cast<std::int32_t>(amount + 0.5f);
   }
   // Layers below the ground are not kept; to the sides there is room for the widest layer of a pyramid.
-  const float margin = cell_m * static_cast<float>(depth + 1);
-  low_ = {room.low.x - margin, room.low.y, room.low.z - margin};
-  const Vec3 size = room.high - low_;
-  cells_ = {static_cast<int>((size.x + margin) * inverse_) + 1, static_cast<int>(size.y * inverse_) + 2,
-            static_cast<int>((size.z + margin) * inverse_) + 1};
-  sum_.assign(
-      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z), 0);
+  const int side = depth + 1;
+  const IVec3 low = IVec3(glm::floor((room.low - anchor) * inverse_));
+  const IVec3 high = IVec3(glm::floor((room.high - anchor) * inverse_));
+  first_ = {low.x - side, 0, low.z - side};
+  cells_ = {high.x - low.x + 2 * side + 1, std::max(0, high.y) + 2, high.z - low.z + 2 * side + 1};
+  const std::size_t cells =
+      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
+  sum_.assign(cells, 0), waiting_.assign(cells, 0);
+  changed_.clear();
 }
 
 void ShadowGrid::make_room(IVec3 c) {
+  settle();
   // A quarter more on every side that is too small.
   const int side = depth_ + 1;
   IVec3 before{0}, after{0};
@@ -36,9 +38,10 @@ void ShadowGrid::make_room(IVec3 c) {
   old_.swap(sum_);
   const IVec3 old_cells = cells_;
   cells_ += before + after;
-  low_ -= Vec3(before) * cell_m_;
-  sum_.assign(
-      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z), 0);
+  first_ -= before;
+  const std::size_t cells =
+      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
+  sum_.assign(cells, 0), waiting_.assign(cells, 0);
   const std::int32_t* from = old_.data();
   for (int j = 0; j < old_cells.y; ++j) {
     for (int k = 0; k < old_cells.z; ++k, from += old_cells.x) {
@@ -47,15 +50,35 @@ void ShadowGrid::make_room(IVec3 c) {
   }
 }
 
-void ShadowGrid::add(const Vec3& p, int sign) {
+void ShadowGrid::count(const Vec3& p, int change) {
   IVec3 c = cell(p);
   const int side = depth_ + 1;
   if (c.x < side || c.z < side || c.y < 0 || c.x >= cells_.x - side || c.z >= cells_.z - side || c.y >= cells_.y) {
     make_room(c);
     c = cell(p);
   }
+  std::int32_t& waiting = waiting_[index(c)];
+  if (waiting == 0) changed_.push_back(c);
+  waiting += change;
+}
+
+std::size_t ShadowGrid::settle() {
+  std::size_t settled = 0;
+  for (const IVec3 c : changed_) {
+    // A cell may be listed again after it came back to 0: then the first entry takes all.
+    std::int32_t& waiting = waiting_[index(c)];
+    if (waiting == 0) continue;
+    add(c, waiting);
+    waiting = 0;
+    ++settled;
+  }
+  changed_.clear();
+  return settled;
+}
+
+void ShadowGrid::add(IVec3 c, int times) {
   for (int q = 0; q <= depth_ && c.y - q >= 0; ++q) {
-    const std::int32_t amount = sign * amount_[static_cast<std::size_t>(q)];
+    const std::int32_t amount = times * amount_[static_cast<std::size_t>(q)];
     for (int k = c.z - q; k <= c.z + q; ++k) {
       std::int32_t* row = sum_.data() + index({c.x - q, c.y - q, k});
       for (int i = 0; i <= 2 * q; ++i) row[i] += amount;

@@ -3,13 +3,14 @@
 // Source    Palubicki et al. 2009, shadow propagation; Longay 2014, 4.2.2
 // Model     wood in cell (i, j, k) adds a * b^-q to the cells q = 0 .. q_max layers below within |di|, |dk| <= q
 // Units     cells of 2 l (at detail 1); sums in integers of 2^-16, so that shed wood takes back exactly what it gave
-// Layout    cell (i, j, k) spans low + cell * (i, j, k) to the next; sum[(j * nz + k) * nx + i]; the grid grows when
-//           wood leaves it
-// Cost      (q_max + 1) (2 q_max + 1) (2 q_max + 3) / 3 additions a cast, in rows
+// Layout    cell (i, j, k) spans anchor + cell * (first + (i, j, k)) to the next; sum[(j * nz + k) * nx + i]; the grid
+//           grows when wood leaves it. Cells stand at the anchor whatever the room, so the room changes no light
+// Decision  what casts and takes back is only counted by cell until settle(), once a season: most shoots of a season
+//           stand in few cells, and wood that is moved within its cell costs nothing. Light is as of the last settle()
+// Cost      (q_max + 1) (2 q_max + 1) (2 q_max + 3) / 3 additions for a cell whose count changed, in rows
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,11 +22,14 @@ class ShadowGrid {
  public:
   static constexpr float kUnit = 65536.0f;
 
-  /// `strength` is a of one internode. `room` is where wood is expected; it may grow past it.
-  void reset(const Box3& room, float cell_m, float strength, float falloff, int depth);
+  /// `strength` is a of one internode. `room` is where wood is expected; it may grow past it. Cells have a corner at
+  /// `anchor`, which stands on the ground.
+  void reset(const Box3& room, const Vec3& anchor, float cell_m, float strength, float falloff, int depth);
 
-  void cast(const Vec3& p) { add(p, 1); }
-  void take_back(const Vec3& p) { add(p, -1); }
+  void cast(const Vec3& p) { count(p, 1); }
+  void take_back(const Vec3& p) { count(p, -1); }
+  /// Brings the sums up to date; returns how many cells' shadows changed.
+  std::size_t settle();
 
   /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
   float exposure(const Vec3& p) const {
@@ -36,9 +40,13 @@ class ShadowGrid {
   }
 
  private:
+  static int floor(float x) {
+    const int i = static_cast<int>(x);
+    return i - (static_cast<float>(i) > x);
+  }
   IVec3 cell(const Vec3& p) const {
-    const Vec3 q = (p - low_) * inverse_;
-    return {static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)), static_cast<int>(std::floor(q.z))};
+    const Vec3 q = (p - anchor_) * inverse_;
+    return IVec3{floor(q.x), floor(q.y), floor(q.z)} - first_;
   }
   bool inside(IVec3 c) const {
     return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < cells_.x && c.y < cells_.y && c.z < cells_.z;
@@ -48,15 +56,19 @@ class ShadowGrid {
                static_cast<std::size_t>(cells_.x) +
            static_cast<std::size_t>(c.x);
   }
-  void add(const Vec3& p, int sign);
+  void count(const Vec3& p, int change);
+  void add(IVec3 c, int times);
   void make_room(IVec3 c);
 
-  Vec3 low_{0.0f};
-  float cell_m_ = 1.0f, inverse_ = 1.0f;
+  Vec3 anchor_{0.0f};
+  float inverse_ = 1.0f;
+  IVec3 first_{0};  ///< lowest cell, from the anchor
   IVec3 cells_{0};
   int depth_ = 1;
   std::array<std::int32_t, 11> amount_{};
   std::vector<std::int32_t> sum_, old_;
+  std::vector<std::int32_t> waiting_;  ///< change of the wood in a cell since the last settle
+  std::vector<IVec3> changed_;         ///< cells where it may not be 0
 };
 
 }  // namespace bosquet::growth

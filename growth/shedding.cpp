@@ -39,7 +39,7 @@ void shed(Tree& tree) {
     }
     if (!falls) continue;
     any = true;
-    wood.light[i] = tree.shadow.exposure(wood.distal[i]);
+    wood.light[i] = light_at(tree, wood.distal[i]);
     if (wood.born[i] != tree.season) wood.vigor[i] = tree.vigor_share(i);
     wood.shed[i] = now;
     tree.shadow.take_back(wood.distal[i]);

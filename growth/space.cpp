@@ -17,12 +17,6 @@ namespace {
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
 
-bool may_stand(const Tree& tree, const Vec3& p, float ground_m) {
-  if (p.y <= ground_m) return false;
-  if (tree.input->region && !tree.input->region->contains(p)) return false;
-  return !tree.occupancy.occupied(p);
-}
-
 void drop_and_claim(Tree& tree) {
   Buds& buds = tree.buds;
   tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
@@ -41,22 +35,29 @@ void drop_and_claim(Tree& tree) {
             : basis_around(c.direction);
     const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
     std::uint64_t bits = 0;
+    int refused = 0;  // by the region
     for (int m = 0; m < markers; ++m, bits >>= 12) {
       if (m % 5 == 0) bits = tree.random.bits();
       const Vec3 offset = tree.occupied_m * tree.samples.at(static_cast<std::uint32_t>(bits), c.direction, basis);
       const Vec3 marker = c.at + offset;
       ++tested;
-      if (!may_stand(tree, marker, ground)) continue;
+      if (marker.y <= ground) continue;
+      if (!in_region(tree, marker)) {
+        ++refused;
+        continue;
+      }
+      if (tree.occupancy.occupied(marker)) continue;
       const float distance = std::sqrt(glm::dot(offset, offset));
       const std::int32_t winner = tree.competitors.nearest(marker, distance, c.bud);
       const auto w = static_cast<std::size_t>(winner);
       buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
       ++buds.claims[w];
     }
-    if (tree.input->region && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
+    if (2 * refused > markers && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
       for (const Vec3& ahead : {c.direction, kUp}) {
         ++tested;
-        if (!may_stand(tree, c.at + kAhead * tree.occupied_m * ahead, ground)) continue;
+        const Vec3 marker = c.at + kAhead * tree.occupied_m * ahead;
+        if (marker.y <= ground || !in_region(tree, marker) || tree.occupancy.occupied(marker)) continue;
         buds.claimed[b] += ahead;
         ++buds.claims[b];
         break;

@@ -13,9 +13,10 @@ constexpr float kLeastInternodes = 40.0f;  ///< h_max / l is kept at least this
 constexpr float kShadowCell = 2.0f;        ///< in l at detail 1
 constexpr int kIdleSeasons = 3;            ///< seasons without a new internode after which growth ends
 
-Box3 expected_room(const GrowthInput& input, float margin_m) {
+/// Where wood may come to stand: in the region r, or where a free-standing tree's does.
+Box3 expected_room(const GrowthInput& input, const crowns::CrownRegion* r, float margin_m) {
   Box3 room;
-  if (const crowns::CrownRegion* r = input.region) {
+  if (r) {
     room.add(r->low);
     room.add(r->low + Vec3(r->cells) * Vec3(r->voxel_m, r->layer_m, r->voxel_m));
   } else {
@@ -39,7 +40,8 @@ void add_stem(Tree& tree, float lean, float azimuth) {
   const auto b = static_cast<std::size_t>(bud);
   const SinCos first = sin_cos(2.0f * kPi * tree.random.uniform());
   const Basis around = basis_around(direction);
-  buds.side[b] = around.x * first.cos + around.y * first.sin;
+  buds.side[b] =
+      tree.parameters->planar ? Vec3{direction.y, -direction.x, 0.0f} : around.x * first.cos + around.y * first.sin;
   buds.axis[b] = tree.axes++;
   buds.sky[b] = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
   tree.tip_of.push_back(bud);
@@ -100,8 +102,11 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
 
-  const Box3 room = expected_room(input, tree.reach_m);
-  tree.shadow.reset(room, kShadowCell * length, p.shadow_strength, p.shadow_falloff, p.shadow_depth);
+  // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.
+  const Box3 room = expected_room(input, input.region, tree.reach_m);
+  const float aside = kShadowCell * length * static_cast<float>(p.shadow_depth + 1);
+  const Vec3 anchor = expected_room(input, nullptr, tree.reach_m).low - Vec3{aside, 0.0f, aside};
+  tree.shadow.reset(room, anchor, kShadowCell * length, p.shadow_strength, p.shadow_falloff, p.shadow_depth);
   tree.occupancy.reset(room, tree.occupied_m);
   tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
 

@@ -6,6 +6,7 @@
 //           thread, reset for each tree, so that nothing is allocated once the arrays are as long as they ever get
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -116,6 +117,21 @@ struct Tree {
     return habits[order < kOrders ? order : static_cast<std::size_t>(kOrders - 1)];
   }
 };
+
+/// Light that reaches p: what the tree's own wood leaves of it (as of this season's start) and other trees let through.
+inline float light_at(const Tree& tree, const Vec3& p) {
+  const float sky = tree.input->light ? tree.input->light->at(p) : 1.0f;
+  return std::max(kLeastLight, sky * tree.shadow.exposure(p));
+}
+
+/// May a marker stand here for all that the region says? It has no lid: above the tree's height its last layer counts,
+/// for growth ends there anyway, and a tip that sees no room just below would only be late.
+inline bool in_region(const Tree& tree, Vec3 p) {
+  const crowns::CrownRegion* region = tree.input->region;
+  if (!region) return true;
+  p.y = std::min(p.y, tree.input->max_height_m - region->layer_m);
+  return region->contains(p);
+}
 
 /// Starts a tree: one terminal bud for each stem.
 void plant(Tree& tree, const GrowthInput& input);

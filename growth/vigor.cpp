@@ -43,6 +43,7 @@ std::array<int, kOrders> light_tables(Tree& tree) {
 }  // namespace
 
 void sense_light(Tree& tree) {
+  tree.work.shadow_cells += tree.shadow.settle();
   const std::array<int, kOrders> tables = light_tables(tree);
   Buds& buds = tree.buds;
   for (const std::int32_t bud : tree.living) {
