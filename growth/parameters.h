@@ -85,6 +85,7 @@ struct Parameters {
   float light_sensitivity = 1.0f;  ///< kappa
   float apical_dominance = 0.5f;   ///< lambda
   int max_shoot_length = 4;        ///< n_max
+  float youth = 0.0f;
   float acrotony = 0.0f;
   float shedding_threshold = 0.0f;  ///< Th
   // Direction.
@@ -207,6 +208,9 @@ void describe(P& p, Visitor& visit) {
   visit(Real{"apical_dominance", "", 0.4, 0.6, "How the flow of vigor favours the main axis at a fork"},
         p.apical_dominance);
   visit(Whole{"max_shoot_length", 2, 12, "Internodes of the best bud's shoot in a season"}, p.max_shoot_length);
+  visit(
+      Real{"youth", "", 0, 0.5, "Share of the final height up to which the trunk's shoots lengthen from 2 internodes"},
+      p.youth);
   visit(Real{"acrotony", "", -1, 1, "Favours buds near the tip of their shoot (1) or near its base (-1)"}, p.acrotony);
   visit(Real{"shedding_threshold", "", 0, 1, "A branch with less vigor per internode is shed; 0 sheds none"},
         p.shedding_threshold);

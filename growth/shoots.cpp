@@ -19,7 +19,16 @@
 namespace bosquet::growth {
 namespace {
 
+constexpr float kShortestShoot = 2.0f;    ///< n_max of a seedling's trunk
 constexpr float kNearlyVertical = 0.01f;  ///< level part of H below which its vertical plane is drawn at random
+
+/// n_max of an axis at the tree's present height.
+float longest_shoot(const Tree& tree, std::uint8_t order) {
+  const auto grown_up = static_cast<float>(tree.habit(order).max_shoot);
+  const float youth = tree.parameters->youth * tree.input->max_height_m;
+  if (order > 0 || tree.height_m >= youth) return grown_up;
+  return kShortestShoot + (grown_up - kShortestShoot) * tree.height_m / youth;
+}
 
 /// S for an axis with heading h.
 Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h) {
@@ -76,6 +85,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   }
   const float bole_m = std::max(p.bole * tree.input->max_height_m, tree.input->clear_stem_m);
   if (tree.wood.order[c] == 0 && buds.at[tip].y < bole_m) count = 0;
+  if (p.planar) count = std::min(count, 2);  // a plane has two sides
   tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
   tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
 
@@ -96,7 +106,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
       buds.factor[b] = bud_factor(habit, heading, azimuth, x);
       buds.sky[b] = buds.sky[tip];
       tree.living.push_back(bud);
-      azimuth = turned(azimuth, heading, between.sin, between.cos);
+      azimuth = p.planar ? -azimuth : turned(azimuth, heading, between.sin, between.cos);
     }
   }
 
@@ -143,17 +153,13 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
     return normalised_or(heading, h);
   };
   Vec3 heading = toward(pressed(tree, s));
-  if (buds.order[b] == 0 && tree.leans && tree.input->region &&
-      !tree.input->region->contains(buds.at[b] + tree.occupied_m * heading)) {
+  if (buds.order[b] == 0 && tree.leans && !in_region(tree, buds.at[b] + tree.occupied_m * heading)) {
     heading = toward(s);
   }
   const Vec3 end = buds.at[b] + tree.length_m * heading;
 
   if (end.y < (buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m)) return false;
-  if (const crowns::CrownRegion* region = tree.input->region;
-      region && buds.order[b] > 0 && !region->contains(end) && !region->contains(buds.at[b])) {
-    return false;
-  }
+  if (buds.order[b] > 0 && !in_region(tree, end) && !in_region(tree, buds.at[b])) return false;
 
   const bool new_axis = buds.state[b] == BudState::lateral;
   if (new_axis) start_axis(tree, b);
@@ -232,8 +238,7 @@ bool choose_growing(Tree& tree) {
     buds.vigor[b] = share;
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
     if (buds.node[b] < 0 && buds.claims[b] == 0) buds.claims[b] = 1, buds.claimed[b] = buds.direction[b];
-    const int n =
-        buds.claims[b] > 0 ? static_cast<int>(share * static_cast<float>(tree.habit(buds.order[b]).max_shoot)) : 0;
+    const int n = buds.claims[b] > 0 ? static_cast<int>(share * longest_shoot(tree, buds.order[b])) : 0;
     if (n == 0) {
       ++buds.idle[b];
       continue;
