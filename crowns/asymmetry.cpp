@@ -9,11 +9,13 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/scalar.h"
+#include "terrain/terrain.h"
 
 namespace bosquet::crowns {
 namespace {
 
 constexpr float kStep = 1.0f / 64.0f;  // V is rounded to it
+constexpr std::size_t kGrain = 8;
 
 // Square buckets as wide as the farthest that two trees can press each other.
 class Neighbourhood {
@@ -87,6 +89,30 @@ DVec2 pressure(std::span<const Claimant> trees, std::size_t me, const Neighbourh
   return sum;
 }
 
+// The same for what stands there.
+DVec2 pressure(const CrownSpace& space, const Claimant& i, const AsymmetryOptions& o) {
+  const double radius = static_cast<double>(o.radius_factor) * 2.0 * static_cast<double>(i.crown_radius_m());
+  const float crown_base = i.ground_y + i.scale_height * i.shape.trunk_height_m;
+  DVec2 sum{0.0};
+  for (const Obstacle& obstacle : space.standing().obstacles) {
+    const auto foot = footprint_beside(*obstacle.volume, space.options().voxel(), i.base, crown_base, radius);
+    if (!foot || foot->distance_m == 0.0) continue;  // nothing pushes a tree out of what it stands in
+    const double counted = std::max(foot->distance_m, static_cast<double>(i.trunk_radius_m()));
+    if (counted > radius) continue;
+    const double areas =
+        std::min(foot->area_m2 / static_cast<double>(i.projected_area_m2()), static_cast<double>(o.area_ratio_cap));
+    const double weight =
+        static_cast<double>(o.area_weight) * areas + static_cast<double>(o.distance_weight) * (1.0 - counted / radius);
+    sum += weight * (DVec2(i.base) - foot->nearest) / foot->distance_m;
+  }
+  return sum;
+}
+
+DVec2 downhill(const terrain::Terrain& terrain, Vec2 base) {
+  const DVec2 rise(terrain.height.gradient(base));
+  return -rise / std::sqrt(1.0 + rise.x * rise.x + rise.y * rise.y);
+}
+
 // Largest distance from `centre` (columns) to a voxel centre of the share. The farthest of a row is one of its ends.
 double farthest(const CrownSpace& space, std::int32_t me, const LayerShare& share, DVec2 centre) {
   double squared = 0;
@@ -127,28 +153,30 @@ double displacement(const CrownSpace& space, std::size_t me) {
 
 float rounded(double v) { return static_cast<float>(std::floor(v / static_cast<double>(kStep) + 0.5)) * kStep; }
 
+Vec3 asymmetry(const CrownSpace& space, std::size_t me, const Neighbourhood& neighbourhood,
+               const AsymmetryOptions& options, const terrain::Terrain* terrain) {
+  const Claimant& tree = space.claimants()[me];
+  DVec2 v = pressure(space.claimants(), me, neighbourhood, options) + pressure(space, tree, options);
+  if (v.x != 0.0 || v.y != 0.0) v *= displacement(space, me);
+  if (terrain && options.slope_weight > 0.0f)
+    v += static_cast<double>(options.slope_weight) * downhill(*terrain, tree.base);
+  const double length = std::sqrt(v.x * v.x + v.y * v.y), most = static_cast<double>(options.asymmetry_max);
+  if (length > most) v *= most / length;
+  return {rounded(v.x), 0.0f, rounded(-v.y)};
+}
+
 }  // namespace
 
-std::vector<Vec3> neighbourhood_asymmetry(const CrownSpace& space, const AsymmetryOptions& options) {
+std::vector<Vec3> neighbourhood_asymmetry(const CrownSpace& space, const AsymmetryOptions& options,
+                                          const terrain::Terrain* terrain) {
   const auto trees = space.claimants();
   std::vector<Vec3> out(trees.size(), Vec3{0.0f});
-  if (trees.size() < 2) return out;
+  if (trees.empty()) return out;
   float widest = 0.0f;
   for (const Claimant& t : trees) widest = std::max(widest, 2.0f * t.crown_radius_m());
   const Neighbourhood neighbourhood(trees, static_cast<double>(options.radius_factor) * static_cast<double>(widest));
-
-  constexpr std::size_t kGrain = 8;
   parallel_for(
-      trees.size(),
-      [&](std::size_t me) {
-        DVec2 v = pressure(trees, me, neighbourhood, options);
-        if (v.x == 0.0 && v.y == 0.0) return;
-        v *= displacement(space, me);
-        const double length = std::sqrt(v.x * v.x + v.y * v.y), most = static_cast<double>(options.asymmetry_max);
-        if (length > most) v *= most / length;
-        out[me] = {rounded(v.x), 0.0f, rounded(-v.y)};
-      },
-      kGrain);
+      trees.size(), [&](std::size_t me) { out[me] = asymmetry(space, me, neighbourhood, options, terrain); }, kGrain);
   return out;
 }
 

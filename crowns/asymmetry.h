@@ -9,11 +9,14 @@
 //           the ratio is averaged over layers by voxel count
 // Decision  A_j / A_i is capped, and so is |V_i|: eq. 6.3 gives 100 for a 2 m crown beside a 20 m one. Infinite caps
 //           give the source's rule
+// Decision  an obstacle presses like a neighbour with the part of its footprint that stands as high as the tree's crown
+//           base: T_j is the footprint's nearest point, A_j its area, r_ij goes with the tree's own crown width
+// Option    slope: slope_weight * sin(slope) downhill is added to V, as crowns lean down a hillside (Umeki 1995); off
 // Decision  a distance below the sum of trunk radii counts as that sum; coincident bases part along an azimuth hashed
 //           from the two keys, in opposite directions
 // Frame     world: V has x east, z south, y = 0; it adds to a tropism that is dimensionless
-// Holds     0 for a tree without neighbours; sums run in key order, so trees may come in any order; V is rounded to
-//           1/64
+// Holds     0 for a tree without neighbours (on level ground, or with the slope off); sums run in key order, then
+//           obstacles by id, so trees may come in any order; V is rounded to 1/64
 #pragma once
 
 #include <concepts>
@@ -33,6 +36,9 @@ struct AsymmetryOptions {
   float radius_factor = 1.5f;
   float area_ratio_cap = 4.0f;
   float asymmetry_max = 1.0f;
+  float slope_weight = 0.0f;
+
+  bool operator==(const AsymmetryOptions&) const = default;
 };
 
 template <class P, class Visitor>
@@ -48,9 +54,11 @@ void describe(P& p, Visitor& visit) {
   visit(Real{"asymmetry_max", "", 0, std::numeric_limits<double>::infinity(),
              "Largest length of the asymmetry vector; inf is without limit"},
         p.asymmetry_max);
+  visit(Real{"slope_weight", "", 0, 10, "How far crowns shift downhill on a slope; 0 is not at all"}, p.slope_weight);
 }
 
-/// V of every claimant of `space`, in its order.
-std::vector<Vec3> neighbourhood_asymmetry(const CrownSpace& space, const AsymmetryOptions& options);
+/// V of every claimant of `space`, in its order. The terrain is asked for slopes only.
+std::vector<Vec3> neighbourhood_asymmetry(const CrownSpace& space, const AsymmetryOptions& options,
+                                          const terrain::Terrain* terrain = nullptr);
 
 }  // namespace bosquet::crowns
