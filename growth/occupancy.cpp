@@ -2,31 +2,42 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace bosquet::growth {
 namespace {
 
-constexpr int kMargin = 2;  ///< cells around the one asked that may hold a node within r
+constexpr int kReach = 2;                ///< cells around the one asked that may hold a node within r
+constexpr int kMargin = 4;               ///< cells around those asked, so that all eight blocks exist
+constexpr int kWood = kMargin + kReach;  ///< wood keeps so far inside that outside the margin all is free
 
-/// Offsets of those cells, nearest first; the cells across a corner are a whole r away.
-struct Offset {
-  IVec3 by;
-  int gap2;
+/// Bits of the cells around a cell in the two blocks along each axis that they lie in. Block (x, y, z) of the eight is
+/// number y * 4 + z * 2 + x; the cell asked is cell 2 + u of the eight along each axis.
+struct Window {
+  std::array<std::uint64_t, 8> adjacent{};  ///< the cell itself and those it touches
+  std::array<std::uint64_t, 8> beyond{};    ///< the others; cells across a corner are a whole r away
+  int own_block = 0, own_bit = 0;
 };
-std::vector<Offset> offsets_by_distance() {
-  std::vector<Offset> found;
-  for (int y = -2; y <= 2; ++y) {
-    for (int z = -2; z <= 2; ++z) {
-      for (int x = -2; x <= 2; ++x) {
-        const IVec3 gap{std::max(0, std::abs(x) - 1), std::max(0, std::abs(y) - 1), std::max(0, std::abs(z) - 1)};
-        const int gap2 = gap.x + gap.y + gap.z;
-        if (gap2 < 3 && (x || y || z)) found.push_back({{x, y, z}, x * x + y * y + z * z});
+std::array<Window, 64> all_windows() {
+  std::array<Window, 64> windows;
+  for (int u = 0; u < 64; ++u) {
+    Window& window = windows[static_cast<std::size_t>(u)];
+    for (int y = -kReach; y <= kReach; ++y) {
+      for (int z = -kReach; z <= kReach; ++z) {
+        for (int x = -kReach; x <= kReach; ++x) {
+          const int cx = (u & 3) + 2 + x, cy = (u >> 4) + 2 + y, cz = (u >> 2 & 3) + 2 + z;
+          const int block = cy / 4 * 4 + cz / 4 * 2 + cx / 4, bit = (cy & 3) << 4 | (cz & 3) << 2 | (cx & 3);
+          const int gap = std::max({std::abs(x), std::abs(y), std::abs(z)});
+          const bool corner = std::min({std::abs(x), std::abs(y), std::abs(z)}) == kReach;
+          if (!corner) (gap < 2 ? window.adjacent : window.beyond)[static_cast<std::size_t>(block)] |= 1ull << bit;
+          if (gap == 0) window.own_block = block, window.own_bit = bit;
+        }
       }
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const Offset& a, const Offset& b) { return a.gap2 < b.gap2; });
-  return found;
+  return windows;
 }
+const std::array<Window, 64> kWindows = all_windows();
 
 }  // namespace
 
@@ -39,20 +50,23 @@ void Occupancy::reset(const Box3& room, float radius_m) {
 
 void Occupancy::lay_out(const Box3& room) {
   room_ = room;
-  low_ = room.low - Vec3(cell_m_ * (kMargin + 1));
-  cells_ = IVec3((room.high - room.low) * inverse_) + IVec3(2 * kMargin + 3);
-  first_.assign(
-      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z), -1);
-  static const std::vector<Offset> offsets = offsets_by_distance();
-  near_.clear();
-  for (const Offset& o : offsets) near_.push_back(index(o.by));
+  low_ = room.low - Vec3(cell_m_ * static_cast<float>(kWood + 1));
+  blocks_ = (IVec3((room.high - room.low) * inverse_) + IVec3(2 * kWood + 3 + 3)) / 4;
+  cells_ = blocks_ * 4;
+  const std::size_t blocks = block({0, blocks_.y, 0});
+  bits_.assign(blocks, 0);
+  if (first_.size() < blocks * 64) first_.resize(blocks * 64);
 }
 
-void Occupancy::link(std::int32_t node, std::int32_t cell) {
-  const auto n = static_cast<std::size_t>(node), c = static_cast<std::size_t>(cell);
-  cell_of_[n] = cell;
-  next_[n] = first_[c];
-  first_[c] = node;
+void Occupancy::link(std::int32_t node, IVec3 c) {
+  const auto n = static_cast<std::size_t>(node);
+  const Place place = this->place(c);
+  const std::uint64_t bit = std::uint64_t{1} << place.bit;
+  Entry& entry = first_[place.entry()];
+  next_[n] = bits_[place.block] & bit ? entry.node : -1;
+  bits_[place.block] |= bit;
+  entry = {at_[n], node};
+  cell_of_[n] = static_cast<std::int64_t>(place.entry());
 }
 
 void Occupancy::add(std::int32_t node, const Vec3& p) {
@@ -60,7 +74,7 @@ void Occupancy::add(std::int32_t node, const Vec3& p) {
   if (n >= at_.size()) at_.resize(n + 1), next_.resize(n + 1, -1), cell_of_.resize(n + 1, -1);
   at_[n] = p;
   IVec3 c = cell(p);
-  if (!inside(c, kMargin)) {
+  if (!inside(c, kWood)) {
     // Make room and bring every node to its new cell.
     Box3 wider = room_;
     const Vec3 more = (room_.high - room_.low) * 0.25f;
@@ -72,47 +86,61 @@ void Occupancy::add(std::int32_t node, const Vec3& p) {
     if (p.z > wider.high.z) wider.high.z = p.z + more.z;
     lay_out(wider);
     for (std::size_t i = 0; i < at_.size(); ++i) {
-      if (cell_of_[i] >= 0) link(static_cast<std::int32_t>(i), index(cell(at_[i])));
+      if (cell_of_[i] >= 0) link(static_cast<std::int32_t>(i), cell(at_[i]));
     }
     c = cell(p);
   }
-  link(node, index(c));
+  link(node, c);
 }
 
 void Occupancy::remove(std::int32_t node) {
   const auto n = static_cast<std::size_t>(node);
-  std::int32_t* link = &first_[static_cast<std::size_t>(cell_of_[n])];
-  while (*link != node) link = &next_[static_cast<std::size_t>(*link)];
-  *link = next_[n];
+  const auto place = static_cast<std::size_t>(cell_of_[n]);
+  Entry& entry = first_[place];
+  if (entry.node != node) {
+    std::int32_t* link = &next_[static_cast<std::size_t>(entry.node)];
+    while (*link != node) link = &next_[static_cast<std::size_t>(*link)];
+    *link = next_[n];
+  } else if (next_[n] >= 0) {
+    entry = {at_[static_cast<std::size_t>(next_[n])], next_[n]};
+  } else {
+    bits_[place / 64] &= ~(std::uint64_t{1} << place % 64);
+  }
   cell_of_[n] = -1;
+}
+
+/// Is a node of these cells of the block nearer to p than r?
+inline bool Occupancy::near(const Vec3& p, std::size_t block, std::uint64_t cells) const {
+  const float r2 = radius_m_ * radius_m_;
+  for (; cells != 0; cells &= cells - 1) {
+    const Entry& entry = first_[block * 64 + static_cast<std::size_t>(std::countr_zero(cells))];
+    const Vec3 to = entry.at - p;
+    if (glm::dot(to, to) < r2) return true;
+    for (std::int32_t n = next_[static_cast<std::size_t>(entry.node)]; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
+      const Vec3 to_next = at_[static_cast<std::size_t>(n)] - p;
+      if (glm::dot(to_next, to_next) < r2) return true;
+    }
+  }
+  return false;
 }
 
 bool Occupancy::occupied(const Vec3& p) const {
   const IVec3 c = cell(p);
-  if (!inside(c, kMargin)) {
-    // Outside the grid's inner part there is wood at most in the margin: look at the cells that exist.
-    const float r2 = radius_m_ * radius_m_;
-    for (int y = std::max(0, c.y - 2); y <= std::min(cells_.y - 1, c.y + 2); ++y) {
-      for (int z = std::max(0, c.z - 2); z <= std::min(cells_.z - 1, c.z + 2); ++z) {
-        for (int x = std::max(0, c.x - 2); x <= std::min(cells_.x - 1, c.x + 2); ++x) {
-          for (std::int32_t n = first_[static_cast<std::size_t>(index({x, y, z}))]; n >= 0;
-               n = next_[static_cast<std::size_t>(n)]) {
-            const Vec3 to = at_[static_cast<std::size_t>(n)] - p;
-            if (glm::dot(to, to) < r2) return true;
-          }
-        }
-      }
-    }
-    return false;
+  if (!inside(c, kMargin)) return false;  // wood is farther inside than r
+  const IVec3 low = c - kReach;
+  const std::size_t first = block(low >> 2);
+  const Window& window = kWindows[static_cast<std::size_t>((low.y & 3) << 4 | (low.z & 3) << 2 | (low.x & 3))];
+  const auto layer = static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.z);
+  const auto row = static_cast<std::size_t>(blocks_.x);
+  const std::array<std::size_t, 8> at{first,         first + 1,         first + row,         first + row + 1,
+                                      first + layer, first + layer + 1, first + layer + row, first + layer + row + 1};
+
+  if (bits_[at[static_cast<std::size_t>(window.own_block)]] >> window.own_bit & 1) return true;
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (near(p, at[i], bits_[at[i]] & window.adjacent[i])) return true;
   }
-  const std::int32_t* own = first_.data() + index(c);
-  if (*own >= 0) return true;
-  const float r2 = radius_m_ * radius_m_;
-  for (const std::int32_t offset : near_) {
-    for (std::int32_t n = own[offset]; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
-      const Vec3 to = at_[static_cast<std::size_t>(n)] - p;
-      if (glm::dot(to, to) < r2) return true;
-    }
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (near(p, at[i], bits_[at[i]] & window.beyond[i])) return true;
   }
   return false;
 }
