@@ -4,8 +4,15 @@
 #include <cmath>
 
 #include "core/scalar.h"
+#include "growth/lanes.h"
 
 namespace bosquet::growth {
+namespace {
+
+constexpr int kLanes = 4;
+constexpr float kFarAway = 1e15f;
+
+}  // namespace
 
 void PerceptionSamples::reset(float depth, float cos_half_angle, bool planar) {
   if (depth == depth_ && cos_half_angle == cos_ && planar == planar_) return;
@@ -35,40 +42,53 @@ void PerceptionSamples::reset(float depth, float cos_half_angle, bool planar) {
 
 void CompetitorIndex::build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle) {
   cos_ = cos_half_angle;
-  inverse_ = 2.0f / reach_m;
+  const std::size_t n = competitors.size();
+  sorted_.resize(n);
+  x_.resize(n + kLanes), y_.resize(n + kLanes), z_.resize(n + kLanes);
+  cells_ = IVec3(0);
+  if (n == 0) return;
   Box3 box;
   for (const Competitor& c : competitors) box.add(c.at);
-  sorted_.resize(competitors.size());
-  if (competitors.empty()) {
-    cells_ = IVec3(0);
-    return;
-  }
+
+  // Cells as wide as buds look, or so wide that there are no more of them than buds.
   low_ = box.low;
-  cells_ = IVec3((box.high - box.low) * inverse_) + 1;
+  std::size_t cells = 0;
+  cell_m_ = reach_m;
+  do {
+    inverse_ = 1.0f / cell_m_;
+    cells_ = IVec3((box.high - box.low) * inverse_) + 1;
+    cells =
+        static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
+    cell_m_ *= 2.0f;
+  } while (cells > n);
+  cell_m_ *= 0.5f;
 
   // Counting sort by cell; within a cell the order given (by bud) stays.
-  const auto cells =
-      static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
   start_.assign(cells + 1, 0);
-  cell_of_.resize(competitors.size());
-  for (std::size_t i = 0; i < competitors.size(); ++i) {
+  cell_of_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
     const IVec3 c = glm::min(IVec3((competitors[i].at - low_) * inverse_), cells_ - 1);
     cell_of_[i] = (c.y * cells_.z + c.z) * cells_.x + c.x;
     ++start_[static_cast<std::size_t>(cell_of_[i]) + 1];
   }
   for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
-  for (std::size_t i = competitors.size(); i-- > 0;) {
+  for (std::size_t i = n; i-- > 0;) {
     // From the back: start_[cell + 1] is the end of what is still to be placed.
-    sorted_[static_cast<std::size_t>(--start_[static_cast<std::size_t>(cell_of_[i]) + 1])] = competitors[i];
+    const auto place = static_cast<std::size_t>(--start_[static_cast<std::size_t>(cell_of_[i]) + 1]);
+    sorted_[place] = competitors[i];
+    x_[place] = competitors[i].at.x, y_[place] = competitors[i].at.y, z_[place] = competitors[i].at.z;
   }
+  for (std::size_t i = n; i < n + kLanes; ++i) x_[i] = y_[i] = z_[i] = kFarAway;
   // Each entry c + 1 now holds the start of cell c: move them down by one.
   for (std::size_t c = 0; c < cells; ++c) start_[c] = start_[c + 1];
-  start_[cells] = static_cast<std::int32_t>(competitors.size());
+  start_[cells] = static_cast<std::int32_t>(n);
 }
 
 std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_t fallback) const {
-  const IVec3 from = glm::max(IVec3(glm::floor((p - low_ - within_m) * inverse_)), IVec3(0));
-  const IVec3 to = glm::min(IVec3(glm::floor((p - low_ + within_m) * inverse_)), cells_ - 1);
+  const Vec3 q = p - low_;
+  const IVec3 from = glm::max(IVec3((q - within_m) * inverse_), IVec3(0));
+  const IVec3 to = glm::min(IVec3((q + within_m) * inverse_), cells_ - 1);
+  const Float4 px = all4(p.x), py = all4(p.y), pz = all4(p.z);
   float best2 = within_m * within_m;
   std::int32_t best = fallback;
   for (int y = from.y; y <= to.y; ++y) {
@@ -77,14 +97,21 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
       if (from.x > to.x) continue;
       const auto begin = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(from.x)]);
       const auto end = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(to.x) + 1]);
-      for (std::size_t i = begin; i < end; ++i) {
-        const Competitor& c = sorted_[i];
-        const Vec3 to_p = p - c.at;
-        const float square = glm::dot(to_p, to_p);
-        if (square > best2 || (square == best2 && c.bud >= best)) continue;
-        const float along = glm::dot(to_p, c.direction);
-        if (along < cos_ * std::sqrt(square)) continue;
-        best2 = square, best = c.bud;
+      for (std::size_t i = begin; i < end; i += kLanes) {
+        // Lanes past the end are buds of other cells: as good as any.
+        const Float4 x = px - load4(&x_[i]), y4 = py - load4(&y_[i]), z4 = pz - load4(&z_[i]);
+        const Float4 squares = x * x + y4 * y4 + z4 * z4;
+        const Int4 near = squares <= all4(best2);
+        if (!any(near)) continue;
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const float square = squares[lane];
+          if (square > best2) continue;
+          const Competitor& c = sorted_[i + static_cast<std::size_t>(lane)];
+          if (square == best2 && c.bud >= best) continue;
+          const float along = glm::dot(p - c.at, c.direction);
+          if (along < cos_ * std::sqrt(square)) continue;
+          best2 = square, best = c.bud;
+        }
       }
     }
   }

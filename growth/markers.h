@@ -55,11 +55,12 @@ class CompetitorIndex {
   std::int32_t nearest(const Vec3& p, float within_m, std::int32_t fallback) const;
 
  private:
-  float cos_ = 0.0f, inverse_ = 1.0f;
+  float cos_ = 0.0f, cell_m_ = 1.0f, inverse_ = 1.0f;
   Vec3 low_{0.0f};
   IVec3 cells_{0};
   std::vector<std::int32_t> start_;  ///< by cell, and one past the last
   std::vector<std::int32_t> cell_of_;
+  std::vector<float> x_, y_, z_;  ///< by cell, and four far away at the end
   std::vector<Competitor> sorted_;
 };
 
