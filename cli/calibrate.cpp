@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/progress_display.h"
+#include "cli/species_source.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "exchange/file_output.h"
@@ -17,27 +18,8 @@ using scene::AgeMeasures;
 using scene::Calibration;
 using scene::Species;
 
-constexpr std::uint64_t kLongestSpeciesFile = std::uint64_t{1} << 20;
 constexpr float kSilhouetteBand = 0.1f;  // of crown width between details
 constexpr float kWidestBand = 0.1f;
-
-struct Source {
-  Species species;
-  std::string text;
-};
-
-Result<Source> source_of(const std::string& name) {
-  if (name.ends_with(".toml")) {
-    auto species = scene::read_species_file(name);
-    if (!species) return species.error();
-    auto bytes = exchange::read_file(name, kLongestSpeciesFile);
-    if (!bytes) return bytes.error();
-    return Source{std::move(*species), std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())};
-  }
-  auto species = scene::builtin_species(name);
-  if (!species) return species.error();
-  return Source{std::move(*species), std::string(scene::builtin_species_text(name))};
-}
 
 float deviation(float grown, float wanted) { return wanted > 0.0f ? grown / wanted - 1.0f : 0.0f; }
 
@@ -174,7 +156,7 @@ bool print_report(const Species& species, const Calibration& c, const scene::Cal
   return verdict.failed.empty();
 }
 
-Result<void> write_calibrated(const Source& source, const Calibration& c, const std::filesystem::path& target) {
+Result<void> write_calibrated(const SpeciesSource& source, const Calibration& c, const std::filesystem::path& target) {
   auto text = scene::calibrated_text(source.text, c);
   if (!text) return Error{fmt::format("{}: {}", source.species.name, text.error().message)};
   auto written = exchange::write_file(target, *text);
@@ -190,7 +172,7 @@ Result<void> write_calibrated(const Source& source, const Calibration& c, const 
 
 Result<void> calibrate_one(const std::string& name, const Options& options, Progress& progress, bool& passes,
                            const std::filesystem::path& target) {
-  auto source = source_of(name);
+  auto source = species_source(name);
   if (!source) return source.error();
   const scene::CalibrationOptions how{options.calibration_trees, !options.quick};
   Stopwatch watch;

@@ -55,12 +55,30 @@ std::map<std::string, Enum> by_name(const std::array<std::string_view, N>& names
   return map;
 }
 
-void add_common(CLI::App* app, Options& o) {
+void add_threads(CLI::App* app, Options& o) {
   app->add_option("--threads", o.threads, "Threads to use; 0 is one per core")
       ->check(CLI::Range(0, 1024))
       ->option_text("N");
+}
+
+void add_quiet(CLI::App* app, Options& o) { app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings"); }
+
+void add_common(CLI::App* app, Options& o) {
+  add_threads(app, o);
   app->add_option("--report", o.report, "Writes counts, seconds and warnings as JSON")->option_text("FILE.json");
-  app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings");
+  add_quiet(app, o);
+}
+
+void add_detail(CLI::App* app, Options& o) {
+  app->add_option("--detail", o.grow.detail, "Internodes are this many times shorter, 0.25 to 4")
+      ->check(within(0.25, 4.0))
+      ->option_text("K");
+}
+
+void add_season(CLI::App* app, Options& o) {
+  app->add_option("--season", o.season, "spring, summer, autumn or bare")
+      ->transform(one_of(by_name<geometry::Season>(geometry::kSeasonNames)))
+      ->option_text("NAME");
 }
 
 void add_growth(CLI::App* app, Options& o) {
@@ -68,9 +86,7 @@ void add_growth(CLI::App* app, Options& o) {
   app->add_option("--year", o.grow.year, "Age in years at which trees are shown; default: grown up")
       ->check(within(0.0, 2000.0))
       ->option_text("N");
-  app->add_option("--detail", o.grow.detail, "Internodes are this many times shorter, 0.25 to 4")
-      ->check(within(0.25, 4.0))
-      ->option_text("K");
+  add_detail(app, o);
   app->add_option("--regions", o.grow.regions, "on: trees keep to their crown regions")
       ->transform(one_of(kOnOff))
       ->option_text("on|off");
@@ -84,9 +100,7 @@ void add_growth(CLI::App* app, Options& o) {
 
 void add_scene(CLI::App* app, Options& o) {
   add_growth(app, o);
-  app->add_option("--season", o.season, "spring, summer, autumn or bare")
-      ->transform(one_of(by_name<geometry::Season>(geometry::kSeasonNames)))
-      ->option_text("NAME");
+  add_season(app, o);
   app->add_option("--foliage", o.foliage, "leaves, clusters or cards")
       ->transform(one_of(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
       ->option_text("LEVEL");
@@ -95,12 +109,7 @@ void add_scene(CLI::App* app, Options& o) {
       ->option_text("N");
 }
 
-void add_picture(CLI::App* app, Options& o) {
-  app->add_option(
-         "--camera", o.camera,
-         "A camera of the recipe, or eye and target as east,north,height,east,north,height (heights above datum 0)")
-      ->option_text("NAME|x,y,z,tx,ty,tz");
-  app->add_option("--sun", o.sun, "\"2026-06-21 15:00\" or azimuth,elevation in degrees")->option_text("TIME|az,el");
+void add_size(CLI::App* app, Options& o, const std::string& meaning) {
   app->add_option_function<std::string>(
          "--size",
          [&o](const std::string& text) {
@@ -111,8 +120,17 @@ void add_picture(CLI::App* app, Options& o) {
                                         "'" + text + "' must be WIDTHxHEIGHT in pixels, 16 to 16384, like 1600x900");
            o.width = w, o.height = h;
          },
-         "Pixels, default 1600x900")
+         meaning)
       ->option_text("WxH");
+}
+
+void add_picture(CLI::App* app, Options& o) {
+  app->add_option(
+         "--camera", o.camera,
+         "A camera of the recipe, or eye and target as east,north,height,east,north,height (heights above datum 0)")
+      ->option_text("NAME|x,y,z,tx,ty,tz");
+  app->add_option("--sun", o.sun, "\"2026-06-21 15:00\" or azimuth,elevation in degrees")->option_text("TIME|az,el");
+  add_size(app, o, "Pixels, default 1600x900");
 }
 
 }  // namespace
@@ -186,10 +204,26 @@ ParsedLine parse_command_line(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->option_text("N");
   calibrate->add_flag("--quick", o.quick, "Leaves out the trees at detail 0.5 and 2");
-  calibrate->add_option("--threads", o.threads, "Threads to use; 0 is one per core")
-      ->check(CLI::Range(0, 1024))
-      ->option_text("N");
+  add_threads(calibrate, o);
   calibrate->callback([&] { o.command = Command::species_calibrate; });
+  CLI::App* gallery = species->add_subcommand(
+      "gallery", "Draws a sheet of species, young, middle-aged and old, with and without leaves");
+  gallery->add_option("names", o.names, "Species, or files of your own (.toml); default: all built-in ones")
+      ->option_text("NAME|FILE.toml");
+  gallery->add_option("-o,--output", o.outputs, "Picture (.png or .jpg)")->required()->expected(1)->option_text("OUT");
+  gallery->add_option("--ages", o.ages, "Years, like 10,40,100; default: 10, 50 and 100, less for the short-lived")
+      ->delimiter(',')
+      ->check(within(1.0, 2000.0))
+      ->option_text("A,B,C");
+  add_season(gallery, o);
+  add_detail(gallery, o);
+  add_size(gallery, o, "Pixels the sheet may take, default 3200x4800");
+  gallery->add_option("--seed", o.seed, "Other trees of the same species")->check(whole())->option_text("S");
+  add_threads(gallery, o), add_quiet(gallery, o);
+  gallery->callback([&, gallery] {
+    o.command = Command::species_gallery;
+    if (gallery->count("--size") == 0) o.width = 3200, o.height = 4800;
+  });
 
   app.add_subcommand("ui", "The window (not in this build)");
 

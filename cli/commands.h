@@ -22,5 +22,7 @@ Result<void> run_stats(const Options& options);
 Result<void> run_species(const Options& options);
 /// `bosquet species calibrate`: free-standing trees beside what their species files say.
 Result<void> run_calibrate(const Options& options);
+/// `bosquet species gallery`: a sheet of species at three ages, with and without leaves.
+Result<void> run_gallery(const Options& options);
 
 }  // namespace bosquet::cli

@@ -29,6 +29,8 @@ Result<void> run(const cli::Options& options) {
       return cli::run_species(options);
     case cli::Command::species_calibrate:
       return cli::run_calibrate(options);
+    case cli::Command::species_gallery:
+      return cli::run_gallery(options);
     case cli::Command::none:
       break;
   }

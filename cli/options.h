@@ -14,7 +14,18 @@
 
 namespace bosquet::cli {
 
-enum class Command { none, make, render, info, import_data, stats, species_list, species_show, species_calibrate };
+enum class Command {
+  none,
+  make,
+  render,
+  info,
+  import_data,
+  stats,
+  species_list,
+  species_show,
+  species_calibrate,
+  species_gallery
+};
 
 enum class ViewKind { trees, shapes, regions, arrows, plan };
 
@@ -40,7 +51,8 @@ struct Options {
   // Import.
   std::filesystem::path dem, inventory;
 
-  // Calibration.
+  // Calibration and gallery.
+  std::vector<float> ages;
   int calibration_trees = 20;
   bool quick = false;
 

@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/gallery.h"
+#include "cli/progress_display.h"
+#include "cli/species_source.h"
+#include "core/parallel.h"
+#include "exchange/file_output.h"
+#include "exchange/image_file.h"
 
 namespace bosquet::cli {
 namespace {
@@ -22,8 +28,43 @@ Result<void> list() {
 
 Result<void> run_species(const Options& options) {
   if (options.command == Command::species_list) return list();
-  if (auto species = scene::builtin_species(options.species); !species) return species.error();
-  fmt::print("{}", scene::builtin_species_text(options.species));
+  auto source = species_source(options.species);
+  if (!source) return source.error();
+  fmt::print("{}", source->text);
+  return {};
+}
+
+Result<void> run_gallery(const Options& options) {
+  const std::filesystem::path& target = options.outputs.front();
+  if (target.extension() != ".png" && target.extension() != ".jpg")
+    return Error{fmt::format("{}: unknown kind of picture '{}'; known: .png .jpg", target.string(),
+                             target.extension().string())};
+  // What cannot be written is told before anything is drawn.
+  if (auto writable = exchange::FileOutput::create(target); !writable) return writable.error();
+
+  std::vector<scene::Species> species;
+  for (const std::string& name : options.names.empty() ? scene::builtin_species_names() : options.names) {
+    auto source = species_source(name);
+    if (!source) return source.error();
+    species.push_back(std::move(source->species));
+  }
+  GalleryOptions how;
+  how.ages = options.ages;
+  how.season = options.season;
+  how.detail = options.grow.detail;
+  how.seed = options.seed.value_or(how.seed);
+  how.width = options.width, how.height = options.height;
+
+  Progress progress;
+  Result<Image> sheet = Error{};
+  {
+    ProgressDisplay display(progress, options.quiet);
+    run_with_threads(options.threads, [&] { sheet = draw_gallery(species, how, &progress); });
+  }
+  if (!sheet) return sheet.error();
+  if (auto written = exchange::write_image(target, *sheet); !written) return written;
+  if (!options.quiet)
+    fmt::print("{}  {} x {} pixels, {} species\n", target.string(), sheet->width, sheet->height, species.size());
   return {};
 }
 
