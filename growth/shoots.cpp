@@ -8,6 +8,8 @@
 // Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
 // Decision  space is competed for again before each metamer; a bud without a marker ends its shoot, and so does one
 //           that would grow into the ground, or out of its region when it already stands outside (the trunk may)
+// Decision  a metamer that would leave the region grows straight to its free space instead; a trunk rises along the
+//           border, or back to its base's column; deflection turns no wood out of the region
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -152,14 +154,24 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
     if (tree.parameters->planar) heading.z = 0.0f;
     return normalised_or(heading, h);
   };
+  const Vec3 at = buds.at[b];
   Vec3 heading = toward(pressed(tree, s));
-  if (buds.order[b] == 0 && tree.leans && !in_region(tree, buds.at[b] + tree.occupied_m * heading)) {
-    heading = toward(s);
+  if (buds.order[b] == 0 && tree.leans && !in_region(tree, at + tree.occupied_m * heading)) heading = toward(s);
+  const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;
+  if (at.y + tree.length_m * heading.y < ground) return false;
+  // A metamer that would leave the region turns to the free space in it; a trunk rises along the border, or back to it.
+  const auto stays = [&](const Vec3& way) {
+    heading = way;
+    return in_region(tree, at + tree.length_m * way);
+  };
+  if (!stays(heading) && !stays(space) && buds.order[b] == 0 &&
+      !stays(normalised_or(habit.alpha * h + (1.0f - habit.alpha) * kUp, kUp)) && !stays(kUp)) {
+    stays(normalised_or(kUp + normalised_or({-at.x, 0.0f, -at.z}, kUp), kUp));
   }
-  const Vec3 end = buds.at[b] + tree.length_m * heading;
+  const Vec3 end = at + tree.length_m * heading;
 
-  if (end.y < (buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m)) return false;
-  if (buds.order[b] > 0 && !in_region(tree, end) && !in_region(tree, buds.at[b])) return false;
+  if (end.y < ground) return false;
+  if (buds.order[b] > 0 && !in_region(tree, end) && !in_region(tree, at)) return false;
 
   const bool new_axis = buds.state[b] == BudState::lateral;
   if (new_axis) start_axis(tree, b);
@@ -192,6 +204,18 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   ++tree.work.shadow_updates;
   tree.height_m = std::max(tree.height_m, end.y);
   return true;
+}
+
+/// Would such a turn carry wood out of the region?
+bool turns_out(const Tree& tree, std::int32_t first, const Vec3& axis, float sin, float cos) {
+  if (!tree.input->region) return false;
+  const Skeleton& wood = tree.wood;
+  const Vec3 pivot = wood.proximal(static_cast<std::size_t>(first));
+  for (std::int32_t i = first; i >= 0; i = tree.internodes.next[static_cast<std::size_t>(i)]) {
+    const Vec3& end = wood.distal[static_cast<std::size_t>(i)];
+    if (in_region(tree, end) && !in_region(tree, pivot + turned(end - pivot, axis, sin, cos))) return true;
+  }
+  return false;
 }
 
 /// The wood above internode `first`'s base on its axis, its buds and its tip, turn about the base.
@@ -260,7 +284,9 @@ void deflect(Tree& tree) {
     const Vec3 axis = glm::cross(buds.direction[b], tree.internodes.heading[carrier]);
     const float length = std::sqrt(glm::dot(axis, axis));
     if (length < 1e-4f) continue;
-    turn_shoot(tree, buds.carrier[b], axis / length, habit.deflection_sin, habit.deflection_cos);
+    const Vec3 about = axis / length;
+    if (turns_out(tree, buds.carrier[b], about, habit.deflection_sin, habit.deflection_cos)) continue;
+    turn_shoot(tree, buds.carrier[b], about, habit.deflection_sin, habit.deflection_cos);
   }
 }
 
