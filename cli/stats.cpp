@@ -2,6 +2,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cli/commands.h"
 #include "cli/grown.h"
@@ -22,7 +23,9 @@ std::vector<double> distances(Vec2 size) {
   return t;
 }
 
-Json pattern(const std::vector<Vec2>& points, const Box2& window, const std::vector<double>& t) {
+// Fewer than two points have no pattern: lists are empty then.
+Json pattern(const std::vector<Vec2>& points, const Box2& window, std::vector<double> t) {
+  if (points.size() < 2) t.clear();
   const std::vector<double> isotropic = distribution::ripley_k(points, window, t);
   Json json;
   json["n"] = points.size();
@@ -34,15 +37,31 @@ Json pattern(const std::vector<Vec2>& points, const Box2& window, const std::vec
   return json;
 }
 
+double mean(const Json& values) {
+  double sum = 0;
+  for (const Json& v : values) sum += v.get<double>();
+  return sum / static_cast<double>(values.size());
+}
+
 void print_table(const Json& json) {
-  fmt::print("{} trees; L(t) - t is above 0 where trees are clustered, below 0 where they keep apart\n\n",
-             json["bases"]["n"].get<std::size_t>());
-  fmt::print("{:>8} {:>16} {:>16} {:>14} {:>14}\n", "t m", "L-t bases", "L-t crowns", "g bases", "g crowns");
+  const Json &bases = json["bases"], &crowns = json["crown_centroids"];
+  const auto n = bases["n"].get<std::size_t>();
+  if (n < 2) {
+    fmt::print("{}: a pattern needs two trees at least\n", n == 0 ? "no trees" : "1 tree");
+    return;
+  }
+  fmt::print("{} trees on {:g} x {:g} m; nearest tree on average at {:.2f} m, nearest crown centroid at {:.2f} m\n", n,
+             json["window_m"][0].get<double>(), json["window_m"][1].get<double>(), mean(bases["nearest_m"]),
+             mean(crowns["nearest_m"]));
+  fmt::print("K(t) - pi t^2 and L(t) - t are above 0 where trees are clustered, below 0 where they keep apart\n\n");
+  fmt::print("{:>8} {:>14} {:>14} {:>12} {:>12} {:>10} {:>10}\n", "t m", "K-pit2 bases", "K-pit2 crowns", "L-t bases",
+             "L-t crowns", "g bases", "g crowns");
+  const auto at = [](const Json& pattern, const char* key, std::size_t i) { return pattern[key][i].get<double>(); };
   for (std::size_t i = 0; i < json["t_m"].size(); ++i) {
-    const double t = json["t_m"][i];
-    fmt::print("{:>8.2f} {:>16.3f} {:>16.3f} {:>14.3f} {:>14.3f}\n", t, json["bases"]["L"][i].get<double>() - t,
-               json["crown_centroids"]["L"][i].get<double>() - t, json["bases"]["g"][i].get<double>(),
-               json["crown_centroids"]["g"][i].get<double>());
+    const double t = json["t_m"][i], circle = std::numbers::pi * t * t;
+    fmt::print("{:>8.2f} {:>14.2f} {:>14.2f} {:>12.3f} {:>12.3f} {:>10.3f} {:>10.3f}\n", t,
+               at(bases, "K_isotropic", i) - circle, at(crowns, "K_isotropic", i) - circle, at(bases, "L", i) - t,
+               at(crowns, "L", i) - t, at(bases, "g", i), at(crowns, "g", i));
   }
 }
 

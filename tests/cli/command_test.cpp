@@ -140,6 +140,34 @@ TEST_F(Commands, StatsMeasureThePatternsOfBasesAndCrowns) {
   EXPECT_EQ(stats["bases"]["K_plain"].size(), stats["t_m"].size());
   EXPECT_EQ(stats["crown_centroids"]["nearest_m"].size(), 9u);
   EXPECT_TRUE(stats["cross"].contains("silver_birch->norway_spruce"));
+  for (const char* points : {"bases", "crown_centroids"})
+    for (const char* key : {"K_plain", "K_isotropic", "L", "g"})
+      EXPECT_EQ(stats[points][key].size(), stats["t_m"].size()) << points << ' ' << key;
+  EXPECT_EQ(stats["window_m"].size(), 2u);
+}
+
+TEST_F(Commands, OneTreeHasNoPattern) {
+  write(
+      "one.toml",
+      "[site]\nsize_m = [9, 9]\n[[planting]]\nkind = \"single\"\nspecies = { silver_birch = 1 }\nat = [4, 4]\nscale = "
+      "0.2\n");
+  const Ran ran = bosquet("stats one.toml --quiet");
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("a pattern needs two trees"), std::string::npos) << ran.out;
+  const auto stats = nlohmann::json::parse(bosquet("stats one.toml --json --quiet").out);
+  EXPECT_EQ(stats["bases"]["n"], 1);
+  EXPECT_TRUE(stats["bases"]["K_isotropic"].empty());
+  EXPECT_TRUE(stats["crown_centroids"]["g"].empty());
+}
+
+TEST_F(Commands, LightOnAndOffGrowDifferentForests) {
+  const auto digest = [&](const std::string& options) {
+    EXPECT_EQ(bosquet("make grove.toml -o g.csv --report r.json --quiet " + options).status, 0);
+    return json("r.json")["skeleton_digest"].get<std::string>();
+  };
+  const std::string on = digest("--light on"), off = digest("--light off");
+  EXPECT_EQ(on, digest(""));
+  EXPECT_NE(on, off);
 }
 
 TEST_F(Commands, ImportMakesARecipeFromAnInventoryAndItsGround) {
