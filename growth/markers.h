@@ -15,6 +15,7 @@
 #include "core/random.h"
 #include "core/vec.h"
 #include "growth/directions.h"
+#include "growth/lanes.h"
 
 namespace bosquet::growth {
 
@@ -28,8 +29,11 @@ class PerceptionSamples {
 
   /// Sample n in the volume of a bud; `basis` is around its direction.
   Vec3 at(std::uint32_t n, const Vec3& direction, const Basis& basis) const {
+    return vec3(at(n, lanes(basis.x), lanes(basis.y), lanes(direction)));
+  }
+  Float4 at(std::uint32_t n, Float4 x, Float4 y, Float4 direction) const {
     const Vec3& s = points_[n & (kCount - 1)];
-    return basis.x * s.x + basis.y * s.y + direction * s.z;
+    return x * all4(s.x) + y * all4(s.y) + direction * all4(s.z);
   }
 
  private:

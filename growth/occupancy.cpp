@@ -14,9 +14,9 @@ constexpr int kWood = kMargin + kReach;  ///< wood keeps so far inside that outs
 /// Bits of the cells around a cell in the two blocks along each axis that they lie in. Block (x, y, z) of the eight is
 /// number y * 4 + z * 2 + x; the cell asked is cell 2 + u of the eight along each axis.
 struct Window {
-  std::array<std::uint64_t, 8> adjacent{};  ///< the cell itself and those it touches
-  std::array<std::uint64_t, 8> beyond{};    ///< the others; cells across a corner are a whole r away
-  int own_block = 0, own_bit = 0;
+  std::array<std::uint64_t, 8> cells{};  ///< that may hold a node within r: those across a corner are a whole r away
+  std::uint64_t own = 0;                 ///< bit of the cell itself, in block own_block
+  std::size_t own_block = 0;
 };
 std::array<Window, 64> all_windows() {
   std::array<Window, 64> windows;
@@ -26,11 +26,11 @@ std::array<Window, 64> all_windows() {
       for (int z = -kReach; z <= kReach; ++z) {
         for (int x = -kReach; x <= kReach; ++x) {
           const int cx = (u & 3) + 2 + x, cy = (u >> 4) + 2 + y, cz = (u >> 2 & 3) + 2 + z;
-          const int block = cy / 4 * 4 + cz / 4 * 2 + cx / 4, bit = (cy & 3) << 4 | (cz & 3) << 2 | (cx & 3);
-          const int gap = std::max({std::abs(x), std::abs(y), std::abs(z)});
+          const auto block = static_cast<std::size_t>(cy / 4 * 4 + cz / 4 * 2 + cx / 4);
+          const std::uint64_t bit = std::uint64_t{1} << ((cy & 3) << 4 | (cz & 3) << 2 | (cx & 3));
           const bool corner = std::min({std::abs(x), std::abs(y), std::abs(z)}) == kReach;
-          if (!corner) (gap < 2 ? window.adjacent : window.beyond)[static_cast<std::size_t>(block)] |= 1ull << bit;
-          if (gap == 0) window.own_block = block, window.own_bit = bit;
+          if (!corner) window.cells[block] |= bit;
+          if (x == 0 && y == 0 && z == 0) window.own_block = block, window.own = bit;
         }
       }
     }
@@ -112,8 +112,9 @@ void Occupancy::remove(std::int32_t node) {
 /// Is a node of these cells of the block nearer to p than r?
 inline bool Occupancy::near(const Vec3& p, std::size_t block, std::uint64_t cells) const {
   const float r2 = radius_m_ * radius_m_;
+  const Entry* entries = first_.data() + block * 64;
   for (; cells != 0; cells &= cells - 1) {
-    const Entry& entry = first_[block * 64 + static_cast<std::size_t>(std::countr_zero(cells))];
+    const Entry& entry = entries[std::countr_zero(cells)];
     const Vec3 to = entry.at - p;
     if (glm::dot(to, to) < r2) return true;
     for (std::int32_t n = next_[static_cast<std::size_t>(entry.node)]; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
@@ -124,23 +125,30 @@ inline bool Occupancy::near(const Vec3& p, std::size_t block, std::uint64_t cell
   return false;
 }
 
-bool Occupancy::occupied(const Vec3& p) const {
-  const IVec3 c = cell(p);
+bool Occupancy::occupied(Float4 p) const {
+  const Int4 at = whole((p - lanes(low_)) * all4(inverse_));
+  const IVec3 c{at[0], at[1], at[2]};
   if (!inside(c, kMargin)) return false;  // wood is farther inside than r
   const IVec3 low = c - kReach;
-  const std::size_t first = block(low >> 2);
   const Window& window = kWindows[static_cast<std::size_t>((low.y & 3) << 4 | (low.z & 3) << 2 | (low.x & 3))];
-  const auto layer = static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.z);
-  const auto row = static_cast<std::size_t>(blocks_.x);
-  const std::array<std::size_t, 8> at{first,         first + 1,         first + row,         first + row + 1,
-                                      first + layer, first + layer + 1, first + layer + row, first + layer + row + 1};
+  const auto row = static_cast<std::size_t>(blocks_.x), layer = row * static_cast<std::size_t>(blocks_.z);
+  const std::size_t first = block(low >> 2);
+  const std::array<std::size_t, 8> blocks{
+      first,         first + 1,         first + row,         first + row + 1,
+      first + layer, first + layer + 1, first + layer + row, first + layer + row + 1};
 
-  if (bits_[at[static_cast<std::size_t>(window.own_block)]] >> window.own_bit & 1) return true;
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (near(p, at[i], bits_[at[i]] & window.adjacent[i])) return true;
+  std::array<std::uint64_t, 8> cells;
+  unsigned some = 0;  // bit i: block i holds wood that is near enough to be measured
+  for (unsigned i = 0; i < 8; ++i) {
+    cells[i] = bits_[blocks[i]] & window.cells[i];
+    some |= static_cast<unsigned>(cells[i] != 0) << i;
   }
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (near(p, at[i], bits_[at[i]] & window.beyond[i])) return true;
+  if (cells[window.own_block] & window.own) return true;
+  const Vec3 place = vec3(p);
+  if (near(place, blocks[window.own_block], cells[window.own_block])) return true;
+  for (some &= ~(1u << window.own_block); some != 0; some &= some - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(some));
+    if (near(place, blocks[i], cells[i])) return true;
   }
   return false;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "growth/lanes.h"
 
 namespace bosquet::growth {
 
@@ -24,7 +25,8 @@ class Occupancy {
   void remove(std::int32_t node);
 
   /// True when a node stands nearer than r.
-  bool occupied(const Vec3& p) const;
+  bool occupied(Float4 p) const;
+  bool occupied(const Vec3& p) const { return occupied(lanes(p)); }
 
  private:
   struct Entry {

@@ -2,7 +2,23 @@
 
 #include <algorithm>
 
+#include "growth/lanes.h"
+
 namespace bosquet::growth {
+namespace {
+
+/// Adds to `side` rows of as many cells, kFours times four at once: the last ones past the row's end get nothing.
+template <int kFours>
+inline void add_square(std::int32_t* row, std::size_t stride, int side, std::int32_t amount) {
+  const Int4 whole{amount, amount, amount, amount};
+  const Int4 end = side % 4 == 1 ? Int4{amount, 0, 0, 0} : Int4{amount, amount, amount, 0};
+  for (int k = 0; k < side; ++k, row += stride) {
+    for (int i = 0; i < kFours - 1; ++i) store4(row + 4 * i, load4(row + 4 * i) + whole);
+    store4(row + 4 * (kFours - 1), load4(row + 4 * (kFours - 1)) + end);
+  }
+}
+
+}  // namespace
 
 void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float strength, float falloff, int depth) {
   anchor_ = anchor, inverse_ = 1.0f / cell_m, depth_ = depth;
@@ -19,7 +35,7 @@ void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float
   cells_ = {high.x - low.x + 2 * side + 1, std::max(0, high.y) + 2, high.z - low.z + 2 * side + 1};
   const std::size_t cells =
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
-  sum_.assign(cells, 0), waiting_.assign(cells, 0);
+  sum_.assign(cells + kPastEnd, 0), waiting_.assign(cells, 0);
   changed_.clear();
 }
 
@@ -41,7 +57,7 @@ void ShadowGrid::make_room(IVec3 c) {
   first_ -= before;
   const std::size_t cells =
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
-  sum_.assign(cells, 0), waiting_.assign(cells, 0);
+  sum_.assign(cells + kPastEnd, 0), waiting_.assign(cells, 0);
   const std::int32_t* from = old_.data();
   for (int j = 0; j < old_cells.y; ++j) {
     for (int k = 0; k < old_cells.z; ++k, from += old_cells.x) {
@@ -77,11 +93,29 @@ std::size_t ShadowGrid::settle() {
 }
 
 void ShadowGrid::add(IVec3 c, int times) {
+  const auto stride = static_cast<std::size_t>(cells_.x);
   for (int q = 0; q <= depth_ && c.y - q >= 0; ++q) {
+    std::int32_t* first = sum_.data() + index({c.x - q, c.y - q, c.z - q});
     const std::int32_t amount = times * amount_[static_cast<std::size_t>(q)];
-    for (int k = c.z - q; k <= c.z + q; ++k) {
-      std::int32_t* row = sum_.data() + index({c.x - q, c.y - q, k});
-      for (int i = 0; i <= 2 * q; ++i) row[i] += amount;
+    const int side = 2 * q + 1;
+    switch (q / 2) {
+      case 0:
+        add_square<1>(first, stride, side, amount);
+        break;
+      case 1:
+        add_square<2>(first, stride, side, amount);
+        break;
+      case 2:
+        add_square<3>(first, stride, side, amount);
+        break;
+      case 3:
+        add_square<4>(first, stride, side, amount);
+        break;
+      case 4:
+        add_square<5>(first, stride, side, amount);
+        break;
+      default:
+        add_square<6>(first, stride, side, amount);
     }
   }
 }

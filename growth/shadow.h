@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "growth/lanes.h"
 
 namespace bosquet::growth {
 
@@ -33,23 +34,25 @@ class ShadowGrid {
 
   /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
   float exposure(const Vec3& p) const {
-    const IVec3 c = cell(p);
-    if (!inside(c)) return 1.0f;
+    const Int4 at = lanes_of_cell(p);
+    if (!all((at >= Int4{}) & (at < Int4{cells_.x, cells_.y, cells_.z, 1}))) return 1.0f;
+    const IVec3 c{at[0], at[1], at[2]};
     const std::int32_t s = sum_[index(c)] - amount_[0];
     return s <= 0 ? 1.0f : s >= 65536 ? 0.0f : 1.0f - static_cast<float>(s) * (1.0f / kUnit);
   }
 
  private:
-  static int floor(float x) {
-    const int i = static_cast<int>(x);
-    return i - (static_cast<float>(i) > x);
+  static constexpr std::size_t kPastEnd = 4;  ///< the last row's end is written four at once
+
+  Int4 lanes_of_cell(const Vec3& p) const {
+    const Float4 q = (lanes(p) - lanes(anchor_)) * all4(inverse_);
+    const Int4 c = whole(q);
+    // Towards zero is one too high below zero: the comparison is -1 there.
+    return c + (__builtin_convertvector(c, Float4) > q) - Int4{first_.x, first_.y, first_.z, 0};
   }
   IVec3 cell(const Vec3& p) const {
-    const Vec3 q = (p - anchor_) * inverse_;
-    return IVec3{floor(q.x), floor(q.y), floor(q.z)} - first_;
-  }
-  bool inside(IVec3 c) const {
-    return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < cells_.x && c.y < cells_.y && c.z < cells_.z;
+    const Int4 c = lanes_of_cell(p);
+    return {c[0], c[1], c[2]};
   }
   std::size_t index(IVec3 c) const {
     return (static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells_.z) + static_cast<std::size_t>(c.z)) *
@@ -66,9 +69,9 @@ class ShadowGrid {
   IVec3 cells_{0};
   int depth_ = 1;
   std::array<std::int32_t, 11> amount_{};
-  std::vector<std::int32_t> sum_, old_;
-  std::vector<std::int32_t> waiting_;  ///< change of the wood in a cell since the last settle
-  std::vector<IVec3> changed_;         ///< cells where it may not be 0
+  std::vector<std::int32_t> sum_, old_;  ///< and kPastEnd more
+  std::vector<std::int32_t> waiting_;    ///< change of the wood in a cell since the last settle
+  std::vector<IVec3> changed_;           ///< cells where it may not be 0
 };
 
 }  // namespace bosquet::growth

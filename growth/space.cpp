@@ -8,7 +8,9 @@
 //           the buds still growing drop and claim
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "growth/lanes.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
@@ -16,6 +18,32 @@ namespace {
 
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
+
+/// in_region() for many places, ready for use.
+class RegionTest {
+ public:
+  explicit RegionTest(const Tree& tree) : region_(tree.input->region) {
+    if (!region_) return;
+    low_ = lanes(region_->low);
+    edge_ = Float4{region_->voxel_m, region_->layer_m, region_->voxel_m, 1.0f};
+    end_ = Float4{static_cast<float>(region_->cells.x), static_cast<float>(region_->cells.y),
+                  static_cast<float>(region_->cells.z), 1.0f};
+    lid_ = all4(std::numeric_limits<float>::max());
+    lid_[1] = tree.input->max_height_m - region_->layer_m;
+  }
+  bool operator()(Float4 p) const {
+    if (!region_) return true;
+    p = lid_ < p ? lid_ : p;
+    const Float4 q = (p - low_) / edge_;
+    if (!all((q >= all4(0.0f)) & (q < end_))) return false;
+    const Int4 c = whole(q);
+    return region_->voxel({c[0], c[1], c[2]});
+  }
+
+ private:
+  const crowns::CrownRegion* region_;
+  Float4 low_{}, edge_{}, end_{}, lid_{};
+};
 
 void drop_and_claim(Tree& tree) {
   Buds& buds = tree.buds;
@@ -25,6 +53,8 @@ void drop_and_claim(Tree& tree) {
     const auto b = static_cast<std::size_t>(c.bud);
     buds.claimed[b] = Vec3{0.0f}, buds.claims[b] = 0;
   }
+  const RegionTest in_its_region(tree);
+  const Float4 radius = all4(tree.occupied_m);
   std::uint64_t tested = 0;
   for (const Competitor& c : tree.competing) {
     const auto b = static_cast<std::size_t>(c.bud);
@@ -33,31 +63,31 @@ void drop_and_claim(Tree& tree) {
         tree.parameters->planar
             ? Basis{normalised_or({c.direction.y, -c.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
             : basis_around(c.direction);
+    const Float4 x = lanes(basis.x), y = lanes(basis.y), direction = lanes(c.direction), at = lanes(c.at);
     const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
     std::uint64_t bits = 0;
     int refused = 0;  // by the region
+    tested += static_cast<std::uint64_t>(markers);
     for (int m = 0; m < markers; ++m, bits >>= 12) {
       if (m % 5 == 0) bits = tree.random.bits();
-      const Vec3 offset = tree.occupied_m * tree.samples.at(static_cast<std::uint32_t>(bits), c.direction, basis);
-      const Vec3 marker = c.at + offset;
-      ++tested;
-      if (marker.y <= ground) continue;
-      if (!in_region(tree, marker)) {
+      const Float4 offset = radius * tree.samples.at(static_cast<std::uint32_t>(bits), x, y, direction);
+      const Float4 marker = at + offset;
+      if (marker[1] <= ground) continue;
+      if (!in_its_region(marker)) {
         ++refused;
         continue;
       }
       if (tree.occupancy.occupied(marker)) continue;
-      const float distance = std::sqrt(glm::dot(offset, offset));
-      const std::int32_t winner = tree.competitors.nearest(marker, distance, c.bud);
+      const std::int32_t winner = tree.competitors.nearest(vec3(marker), std::sqrt(square(offset)), c.bud);
       const auto w = static_cast<std::size_t>(winner);
-      buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
+      buds.claimed[w] += normalised_or(vec3(marker) - buds.at[w], Vec3{0.0f});
       ++buds.claims[w];
     }
     if (2 * refused > markers && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
       for (const Vec3& ahead : {c.direction, kUp}) {
         ++tested;
-        const Vec3 marker = c.at + kAhead * tree.occupied_m * ahead;
-        if (marker.y <= ground || !in_region(tree, marker) || tree.occupancy.occupied(marker)) continue;
+        const Float4 marker = lanes(c.at + kAhead * tree.occupied_m * ahead);
+        if (marker[1] <= ground || !in_its_region(marker) || tree.occupancy.occupied(marker)) continue;
         buds.claimed[b] += ahead;
         ++buds.claims[b];
         break;

@@ -101,6 +101,8 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
+  tree.standing.clear(), tree.failing.clear(), tree.counts.clear();
+  tree.listed = 0;
 
   // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.
   const Box3 room = expected_room(input, input.region, tree.reach_m);

@@ -92,8 +92,11 @@ struct Tree {
   Skeleton wood;
   Internodes internodes;
   Buds buds;
-  std::vector<std::int32_t> living;  ///< buds, in birth order
-  std::vector<std::int32_t> tip_of;  ///< terminal bud by axis
+  std::vector<std::int32_t> living;    ///< buds, in birth order
+  std::vector<std::int32_t> tip_of;    ///< terminal bud by axis
+  std::vector<std::int32_t> standing;  ///< living internodes before this season's, in birth order
+  std::size_t listed = 0;              ///< internodes born before this season
+  std::vector<std::int32_t> failing;   ///< of these, where branches begin that have too little vigor
   std::vector<GrowingBud> growing;
   float greatest_vigor = 0;  ///< v_max
 
@@ -104,7 +107,7 @@ struct Tree {
   CompetitorIndex competitors;
   std::vector<Competitor> competing;
   std::vector<float> light_response;  ///< L^kappa for L = i / kLightSteps, for each distinct kappa
-  std::vector<std::int32_t> counts;   ///< scratch, by internode
+  std::vector<std::int32_t> counts;   ///< by internode: how many stand on it, itself included, before this season's
   GrowthWork work;
 
   /// v / v_max that reached internode i this season.
@@ -149,7 +152,8 @@ void sense_light(Tree& tree);
 void compete_for_space(Tree& tree);
 void compete_for_space_again(Tree& tree);
 
-/// Signal down, vigor up (vigor.cpp): fills flow of the living buds and finds v_max of the enabled ones.
+/// Signal down, vigor up (vigor.cpp): fills flow of the living buds, finds v_max of the enabled ones and the branches
+/// that fail.
 void share_vigor(Tree& tree);
 
 /// Fate, deflection and extension (shoots.cpp). Returns true when something grew.

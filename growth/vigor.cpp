@@ -5,7 +5,8 @@
 //             v_m = v * lambda*Q_m / (lambda*Q_m + (1 - lambda)*Q_l),     v_l = v - v_m
 // Decision  every living bud reports Q; several laterals at a node share v_l in proportion to their Q; v at the root is
 //           Q at the root; when nothing reports, both shares are 0
-// Cost      one backward and one forward sweep over the internodes, no allocation
+// Decision  shedding compares vigor and size of a branch as they are here, its size in internodes
+// Cost      one backward and one forward sweep over the living internodes, no allocation
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,9 +62,15 @@ void share_vigor(Tree& tree) {
   Internodes& in = tree.internodes;
   Buds& buds = tree.buds;
   const Skeleton& wood = tree.wood;
-  const std::size_t n = wood.size();
-  std::fill(in.main_signal.begin(), in.main_signal.end(), 0.0f);
-  std::fill(in.lateral_signal.begin(), in.lateral_signal.end(), 0.0f);
+  for (; tree.listed < wood.size(); ++tree.listed) {
+    if (wood.alive(tree.listed)) tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
+  }
+  tree.counts.resize(wood.size());
+  for (const std::int32_t node : tree.standing) {
+    const auto i = static_cast<std::size_t>(node);
+    in.main_signal[i] = in.lateral_signal[i] = 0.0f;
+    tree.counts[i] = 1;
+  }
 
   // Down: buds report to their node, every node to the one below.
   for (const std::int32_t bud : tree.living) {
@@ -72,29 +79,36 @@ void share_vigor(Tree& tree) {
     const auto node = static_cast<std::size_t>(buds.node[b]);
     (buds.state[b] == BudState::terminal ? in.main_signal : in.lateral_signal)[node] += buds.signal[b];
   }
-  for (std::size_t i = n; i-- > 0;) {
+  for (std::size_t s = tree.standing.size(); s-- > 0;) {
+    const auto i = static_cast<std::size_t>(tree.standing[s]);
+    if (wood.parent[i] < 0) continue;
+    const auto p = static_cast<std::size_t>(wood.parent[i]);
+    tree.counts[p] += tree.counts[i];
     const float q = in.main_signal[i] + in.lateral_signal[i];
-    if (q <= 0.0f) continue;
-    const std::int32_t parent = wood.parent[i];
-    if (parent < 0) continue;
-    const auto p = static_cast<std::size_t>(parent);
-    (in.next[p] == static_cast<std::int32_t>(i) ? in.main_signal : in.lateral_signal)[p] += q;
+    if (q > 0.0f) (in.next[p] == static_cast<std::int32_t>(i) ? in.main_signal : in.lateral_signal)[p] += q;
   }
 
   // Up: v at the root is Q at the root, so stems share it as they reported.
-  for (std::size_t i = 0; i < n; ++i) {
+  tree.failing.clear();
+  for (const std::int32_t node : tree.standing) {
+    const auto i = static_cast<std::size_t>(node);
     const float q_m = in.main_signal[i], q_l = in.lateral_signal[i];
+    const Habit& habit = tree.habit(wood.order[i]);
+    float v = q_m + q_l;
+    if (wood.parent[i] >= 0) {
+      const auto p = static_cast<std::size_t>(wood.parent[i]);
+      if (in.next[p] == node) {
+        v = in.main_vigor[p];
+      } else {
+        v *= in.lateral_rate[p];
+        if (v < habit.shedding * static_cast<float>(tree.counts[i])) tree.failing.push_back(node);
+      }
+    }
     if (q_m + q_l <= 0.0f) {
       in.main_vigor[i] = in.lateral_rate[i] = 0.0f;
       continue;
     }
-    float v = q_m + q_l;
-    if (const std::int32_t parent = wood.parent[i]; parent >= 0) {
-      const auto p = static_cast<std::size_t>(parent);
-      v = in.next[p] == static_cast<std::int32_t>(i) ? in.main_vigor[p] : in.lateral_rate[p] * (q_m + q_l);
-    }
-    const float lambda = tree.habit(wood.order[i]).lambda;
-    const float main = lambda * q_m, lateral = (1.0f - lambda) * q_l;
+    const float main = habit.lambda * q_m, lateral = (1.0f - habit.lambda) * q_l;
     in.main_vigor[i] = v * (main / (main + lateral));
     in.lateral_rate[i] = q_l > 0.0f ? (v - in.main_vigor[i]) / q_l : 0.0f;
   }
