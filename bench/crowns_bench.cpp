@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "crowns/asymmetry.h"
 #include "crowns/crown_space.h"
+#include "crowns/update_space.h"
 #include "crowns/vdb.h"
 #include "terrain/terrain.h"
 
@@ -95,6 +96,55 @@ void hectares(benchmark::State& state) {
   count(state, space);
 }
 BENCHMARK(hectares)->Arg(16)->Arg(50)->Arg(158)->ArgName("side_m")->Unit(benchmark::kMillisecond);
+
+// Ten thousand trees on ten hectares, the whole, and one tree moved a metre; `voxels` are those that it claimed.
+struct TenHectares {
+  std::vector<Claimant> trees = clustered_trees(10'000, 316.0f);
+  terrain::Terrain ground = flat(316.0f);
+};
+
+void ten_hectares(benchmark::State& state) {
+  const TenHectares site;
+  CrownSpace space;
+  run_with_threads(static_cast<int>(state.range(0)), [&] {
+    for (auto _ : state) space = *divide_space(site.trees, site.ground, {});
+  });
+  count(state, space);
+  state.counters["MB"] = static_cast<double>(space.bytes()) * 1e-6;
+}
+BENCHMARK(ten_hectares)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
+
+void one_of_ten_thousand_moved(benchmark::State& state) {
+  TenHectares site;
+  const CrownSpace space = *divide_space(site.trees, site.ground, {});
+  const std::vector<Vec3> v = neighbourhood_asymmetry(space, {});
+  const bool far = state.range(1) != 0;
+  std::size_t n = 0, changed = 0, claimed = 0;
+  run_with_threads(static_cast<int>(state.range(0)), [&] {
+    for (auto _ : state) {
+      auto trees = site.trees;
+      Claimant& moved = trees[(n++ * 3571) % trees.size()];
+      moved.base = glm::clamp(moved.base + (far ? Vec2{40.0f, -35.0f} : Vec2{0.8f, -0.6f}), Vec2{0.0f}, Vec2{316.0f});
+      const auto update = *update_space(space, trees, {}, site.ground, {});
+      benchmark::DoNotOptimize(update_asymmetry(space, v, update, {}, nullptr));
+      changed += update.changed.size();
+      claimed += update.space.claimed_voxels(static_cast<std::size_t>(&moved - trees.data()));
+    }
+  });
+  state.counters["trees_changed"] = static_cast<double>(changed) / static_cast<double>(n);
+  state.counters["voxels"] = static_cast<double>(claimed) / static_cast<double>(n);
+}
+BENCHMARK(one_of_ten_thousand_moved)
+    ->ArgsProduct({{1, 2}, {0, 1}})
+    ->ArgNames({"threads", "far"})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 void regions_of_plot_300(benchmark::State& state) {
   const auto trees = clustered_trees(300, 30.0f);

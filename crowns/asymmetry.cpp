@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/scalar.h"
+#include "crowns/update_space.h"
 #include "terrain/terrain.h"
 
 namespace bosquet::crowns {
@@ -177,6 +178,59 @@ std::vector<Vec3> neighbourhood_asymmetry(const CrownSpace& space, const Asymmet
   const Neighbourhood neighbourhood(trees, static_cast<double>(options.radius_factor) * static_cast<double>(widest));
   parallel_for(
       trees.size(), [&](std::size_t me) { out[me] = asymmetry(space, me, neighbourhood, options, terrain); }, kGrain);
+  return out;
+}
+
+std::vector<Vec3> update_asymmetry(const CrownSpace& previous, std::span<const Vec3> before, const SpaceUpdate& update,
+                                   const AsymmetryOptions& options, const terrain::Terrain* terrain,
+                                   std::vector<std::size_t>* changed) {
+  const CrownSpace& space = update.space;
+  const auto trees = space.claimants();
+  std::vector<Vec3> out(trees.size(), Vec3{0.0f});
+  std::vector<std::uint8_t> stale(trees.size(), update.whole);
+
+  // What is kept of before, by slot.
+  std::vector<std::size_t> was(trees.size(), before.size());
+  if (!update.whole)
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const std::int32_t slot = space.slot_of(i);
+      if (slot >= previous.slots()) continue;
+      const std::int32_t c = previous.claimant_of(slot);
+      if (c >= 0 && previous.claimants()[static_cast<std::size_t>(c)].id == trees[i].id)
+        was[i] = static_cast<std::size_t>(c), out[i] = before[was[i]];
+    }
+
+  // Trees whose region changed, and those that an edit can press or no longer presses.
+  for (std::size_t i : update.changed) stale[i] = 1;
+  float widest = 0.0f;
+  for (const Claimant& t : trees) widest = std::max(widest, 2.0f * t.crown_radius_m());
+  const auto radius = [&](const Claimant& a, float width) {
+    return options.radius_factor * std::max(2.0f * a.crown_radius_m(), width) + 0.01f;
+  };
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const Claimant& t = trees[i];
+    for (const Claimant& e : update.edits) {
+      const float r = radius(t, 2.0f * e.crown_radius_m());
+      const float d = glm::distance(t.base, e.base);
+      if (d <= r || d <= t.trunk_radius_m() + e.trunk_radius_m()) stale[i] = 1;
+    }
+    for (const Box2& box : update.obstacle_edits)
+      if (glm::distance(t.base, glm::clamp(t.base, box.low, box.high)) <= radius(t, 0.0f) + space.voxel_m())
+        stale[i] = 1;
+  }
+
+  std::vector<std::size_t> todo;
+  for (std::size_t i = 0; i < trees.size(); ++i)
+    if (stale[i]) todo.push_back(i);
+  if (!todo.empty()) {
+    const Neighbourhood neighbourhood(trees, static_cast<double>(options.radius_factor) * static_cast<double>(widest));
+    parallel_for(
+        todo.size(), [&](std::size_t n) { out[todo[n]] = asymmetry(space, todo[n], neighbourhood, options, terrain); },
+        kGrain);
+  }
+  if (changed)
+    for (std::size_t i : todo)
+      if (was[i] == before.size() || out[i] != before[was[i]]) changed->push_back(i);
   return out;
 }
 

@@ -181,6 +181,7 @@ class CrownSpace {
   const SpaceTile* find_tile(IVec2 tile) const;
 
   /// Tiles hold trees by slots, which stay when claimants before them in the list go. A slot's claimant, and back.
+  std::int32_t slots() const { return static_cast<std::int32_t>(claimant_of_.size()); }
   std::int32_t claimant_of(std::int32_t slot) const { return claimant_of_[static_cast<std::size_t>(slot)]; }
   std::int32_t slot_of(std::size_t claimant) const { return slot_of_[claimant]; }
 

@@ -140,16 +140,14 @@ class SpaceBuilder {
     return 0;
   }
 
-  // Tiles of obstacles on the site and of hero trees.
+  // Tiles of obstacles and of hero trees.
   template <class Reached>
   double plan_standing(const Reached& reached, double tile_bytes) {
-    const Vec2 columns = terrain_.size_m() / options_.voxel_m;
     constexpr std::int32_t kNoBase = std::numeric_limits<std::int32_t>::lowest();
     for (const Obstacle& o : standing_.obstacles)
       for (const ColumnSpan& s : o.volume->spans) {
-        const bool on_site = s.column.x >= 0 && s.column.y >= 0 && static_cast<float>(s.column.x) < columns.x &&
-                             static_cast<float>(s.column.y) < columns.y;
-        if (on_site && layout_.domain.contains(s.column)) reached(tile_of(s.column), s.low, s.high, kNoBase);
+        if (!layout_.domain.contains(s.column)) continue;
+        reached(tile_of(s.column), s.high - 1, s.high, kNoBase);  // down to the ground, whose height comes later
         if (static_cast<double>(plots_.size()) * tile_bytes > byte_limit())
           return static_cast<double>(plots_.size()) * tile_bytes;
       }
@@ -166,6 +164,7 @@ class SpaceBuilder {
       Plot& plot = plots_[n];
       plot.ground = ground_layers(plot.tile, terrain_, layout_.domain, options_);
       plot.bottom = std::min(plot.bottom, *std::min_element(plot.ground->begin(), plot.ground->end()));
+      plot.top = std::max(plot.top, plot.bottom);
     });
   }
 

@@ -4,8 +4,10 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 
 #include "crowns/mesh_solid.h"
 #include "crowns/obstacle.h"
@@ -66,7 +68,7 @@ Result<void> check(const TriangleMesh& mesh, VoxelSize size) {
 
 }  // namespace
 
-Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size) {
+Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size, const Box2& within) {
   if (auto fine = check(mesh, size); !fine) return fine.error();
   std::string warning;
   if (!is_closed(mesh))
@@ -84,8 +86,16 @@ Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size) {
                                                                                              voxels.triangles);
     openvdb::util::NullInterrupter never;
     const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(never, adapter, *transform, kBand, kBand, flags);
+    const auto column = [&](float v) {
+      return static_cast<int>(
+          std::clamp(std::floor(static_cast<double>(v) / static_cast<double>(size.voxel_m)), -kFarthest, kFarthest));
+    };
+    const int lowest = std::numeric_limits<int>::lowest(), highest = std::numeric_limits<int>::max();
+    const openvdb::Coord least(column(within.low.x), lowest, column(within.low.y)),
+        most(column(within.high.x), highest, column(within.high.y));
     const auto take = [&](const openvdb::CoordBBox& box) {
-      const openvdb::Coord low = box.min() + voxels.origin, high = box.max() + voxels.origin;
+      openvdb::Coord low = box.min() + voxels.origin, high = box.max() + voxels.origin;
+      low = openvdb::Coord::maxComponent(low, least), high = openvdb::Coord::minComponent(high, most);
       for (int z = low.z(); z <= high.z(); ++z)
         for (int x = low.x(); x <= high.x(); ++x) spans.push_back({{x, z}, low.y(), high.y() + 1});
     };

@@ -42,7 +42,7 @@ ObstacleVolume gather(std::vector<ColumnSpan> spans) {
   return out;
 }
 
-ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelSize size) {
+ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelSize size, const Box2& within) {
   const double voxel = static_cast<double>(size.voxel_m), layer = static_cast<double>(size.layer_m);
   const auto low = static_cast<std::int32_t>(std::floor(static_cast<double>(low_y) / layer));
   const auto high = std::max(low + 1, static_cast<std::int32_t>(std::ceil(static_cast<double>(high_y) / layer)));
@@ -55,8 +55,8 @@ ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelS
   };
   add(outline.ring);
   for (const auto& hole : outline.holes) add(hole);
-  const Box2 box = outline.bounds();
-  if (box.empty()) return {};
+  const Box2 bounds = outline.bounds(), box{glm::max(bounds.low, within.low), glm::min(bounds.high, within.high)};
+  if (bounds.empty() || box.empty()) return {};
   const IVec2 from(glm::floor(DVec2(box.low) / voxel - 1.0)), to(glm::ceil(DVec2(box.high) / voxel + 1.0));
   const auto width = static_cast<std::size_t>(to.x - from.x + 1), rows = static_cast<std::size_t>(to.y - from.y + 1);
   std::vector<std::uint8_t> taken(width * rows, 0);
@@ -77,7 +77,7 @@ ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelS
       for (std::size_t n = 0; n + 1 < crossings.size(); n += 2) {
         const auto first = static_cast<std::int32_t>(std::ceil(crossings[n] - 0.5));
         const auto last = static_cast<std::int32_t>(std::ceil(crossings[n + 1] - 0.5)) - 1;
-        for (std::int32_t i = first; i <= last; ++i) at(i, j) = r == 0;
+        for (std::int32_t i = std::max(first, from.x); i <= std::min(last, to.x); ++i) at(i, j) = r == 0;
       }
     }
   }

@@ -3,6 +3,7 @@
 // Source    Longay 2014, 6.5.1 names obstacles and trees that are already there as owners of voxels
 // Model     a closed mesh fills its inside; an extruded outline fills the prism over it. A voxel belongs to the obstacle
 //           when its centre lies inside, or nearer than half a voxel to the surface
+// Decision  what lies outside the plan box that is asked for is left out; the others take memory wherever they stand
 // Decision  the half voxel keeps walls thinner than a voxel tight, and crowns off the wall by as much
 // Decision  a mesh that is open or crosses itself has no certain inside: its surface alone is an obstacle, and says so
 // Units     metres; voxels of the lattice of crown_space.h
@@ -11,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -54,11 +56,15 @@ struct Obstacle {
   bool operator==(const Obstacle&) const = default;
 };
 
+/// Everywhere.
+inline constexpr Box2 kEverywhere{Vec2{std::numeric_limits<float>::lowest()}, Vec2{std::numeric_limits<float>::max()}};
+
 /// Voxels of a mesh in world metres.
-Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size);
+Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size, const Box2& within = kEverywhere);
 
 /// Voxels of the prism over `outline` between two heights.
-ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelSize size);
+ObstacleVolume extrude(const Polygon& outline, float low_y, float high_y, VoxelSize size,
+                       const Box2& within = kEverywhere);
 
 /// Spans of a volume in one row of columns.
 std::span<const ColumnSpan> row(const ObstacleVolume& volume, std::int32_t north);

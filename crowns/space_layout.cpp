@@ -222,6 +222,7 @@ void claim_for_obstacles(SpaceTile& tile, const Standing& standing) {
 
 void hang_below_bases(SpaceTile& tile, const std::function<std::int32_t(std::int32_t)>& base) {
   constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
+  if (tile.highest_base <= tile.first_layer) return;
   for (std::int32_t k = std::min(tile.highest_base, tile.first_layer + tile.layers - 1) - 1; k >= tile.first_layer;
        --k) {
     std::int32_t* here = tile.owner.data() + tile.offset(k);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/random.h"
@@ -68,14 +69,33 @@ inline SpaceOptions unlimited(float voxel_m, float layer_m) {
   return o;
 }
 
-/// Calls visit(voxel, claimant or kFree) for every voxel kept.
+/// Calls visit(voxel, what CrownSpace::owner() says) for every voxel kept.
 inline void for_each_voxel(const CrownSpace& space, const std::function<void(IVec3, std::int32_t)>& visit) {
   for (const auto& tile : space.tiles())
     for (std::int32_t k = tile->first_layer; k < tile->first_layer + tile->layers; ++k)
       for (std::int32_t j = 0; j < kTileEdge; ++j)
-        for (std::int32_t i = 0; i < kTileEdge; ++i)
+        for (std::int32_t i = 0; i < kTileEdge; ++i) {
+          const std::int32_t held = tile->owner[tile->offset(k) + static_cast<std::size_t>(j * kTileEdge + i)];
           visit({tile->tile.x * kTileEdge + i, k, tile->tile.y * kTileEdge + j},
-                tile->owner[tile->offset(k) + static_cast<std::size_t>(j * kTileEdge + i)]);
+                held < 0 ? held : space.claimant_of(held));
+        }
+}
+
+/// A box as a closed mesh, faces outward.
+inline TriangleMesh box_mesh(const Vec3& low, const Vec3& high) {
+  TriangleMesh mesh;
+  for (int n = 0; n < 8; ++n)
+    mesh.positions.push_back({n & 1 ? high.x : low.x, n & 2 ? high.y : low.y, n & 4 ? high.z : low.z});
+  mesh.indices = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 4, 6, 0, 6, 2,
+                  1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3};
+  return mesh;
+}
+
+inline Polygon rectangle(Vec2 low, Vec2 high) { return {{low, {high.x, low.y}, high, {low.x, high.y}}, {}}; }
+
+/// A building over a rectangle in plan.
+inline Obstacle building(std::int32_t id, Vec2 low, Vec2 high, float bottom_y, float top_y, VoxelSize size) {
+  return {id, "building", std::make_shared<const ObstacleVolume>(extrude(rectangle(low, high), bottom_y, top_y, size))};
 }
 
 /// Distance from base to a voxel's centre in plan, metres.

@@ -1,0 +1,725 @@
+#include "crowns/update_space.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "core/parallel.h"
+#include "crowns/propagation.h"
+#include "crowns/space_layout.h"
+#include "terrain/terrain.h"
+
+namespace bosquet::crowns {
+namespace {
+
+constexpr std::int32_t kEdge = kTileEdge;
+constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
+constexpr std::int32_t kGone = -1;
+// Rings of neighbours that are divided with the edited trees at first.
+constexpr int kRings = 2;
+
+constexpr std::array<IVec2, 4> kBeside{IVec2{-1, 0}, IVec2{1, 0}, IVec2{0, -1}, IVec2{0, 1}};
+
+/// A voxel that belonged to a tree before a hero tree took it.
+struct Hidden {
+  std::int32_t slot, layer;
+  IVec2 column;
+};
+
+// What is the same for all layers.
+struct Edit {
+  const CrownSpace& before;
+  const SpaceLayout& old_layout;
+  const SpaceLayout& layout;
+  const Standing& standing;
+  const terrain::Terrain& terrain;
+  const SpaceOptions& options;
+  std::vector<std::int32_t> old_claimant;  ///< of each slot, or kGone
+  std::vector<std::int32_t> claimant;      ///< the same after the edit
+  std::vector<std::int32_t> edited;        ///< slots of trees that came, went or have another front
+  std::vector<const Obstacle*> gone_obstacles, new_obstacles;
+  std::vector<Hidden> hidden;  ///< sorted by slot, layer
+  std::unordered_map<std::uint64_t, std::shared_ptr<const std::vector<std::int32_t>>> ground;
+  std::mutex ground_lock;
+
+  const Placed* old_place(std::int32_t slot) const { return place(old_layout, old_claimant, slot); }
+  const Placed* new_place(std::int32_t slot) const { return place(layout, claimant, slot); }
+
+  std::shared_ptr<const std::vector<std::int32_t>> ground_of(IVec2 tile) {
+    if (const SpaceTile* held = before.find_tile(tile)) return held->ground;
+    const std::lock_guard lock(ground_lock);
+    auto& layers = ground[packed(tile)];
+    if (!layers) layers = ground_layers(tile, terrain, layout.domain, options);
+    return layers;
+  }
+
+ private:
+  static const Placed* place(const SpaceLayout& of, const std::vector<std::int32_t>& claimants, std::int32_t slot) {
+    const std::int32_t c =
+        static_cast<std::size_t>(slot) < claimants.size() ? claimants[static_cast<std::size_t>(slot)] : kGone;
+    return c == kGone ? nullptr : &of.placed[static_cast<std::size_t>(c)];
+  }
+};
+
+// One layer of one tile before and after, without hero trees and without what hangs below bases. Owners are slots or
+// kFree.
+struct Sheet {
+  IVec2 tile{0};
+  std::vector<std::int32_t> before, now;
+  std::vector<std::uint64_t> ticks;  ///< of voxels that were divided anew
+  std::vector<std::uint8_t> open;    ///< above ground and in no obstacle, after the edit
+  std::vector<std::uint8_t> divided;
+};
+
+class LayerUpdate {
+ public:
+  LayerUpdate(Edit& edit, std::int32_t layer) : edit_(edit), layer_(layer) {}
+
+  void run() {
+    joined_.assign(edit_.claimant.size(), 0);
+    begin();
+    if (set_.empty()) return;
+    for (int ring = 0; ring < kRings; ++ring) join_neighbours();
+    do divide();
+    while (widen());
+  }
+
+  std::vector<Sheet>& sheets() { return sheets_; }
+
+ private:
+  // The edited trees, and those that own a voxel which an edit takes or beside one that it frees.
+  void begin() {
+    for (std::int32_t slot : edit_.edited) {
+      const Placed *was = edit_.old_place(slot), *is = edit_.new_place(slot);
+      if (was && was->takes_part(layer_)) join(slot);
+      if (!is || !is->takes_part(layer_)) continue;
+      join(slot);
+      join(before(is->root));
+    }
+    for (const Obstacle* o : edit_.new_obstacles)
+      for (const ColumnSpan& s : o->volume->spans)
+        if (spans(s)) join(before_if_held(s.column));
+    for (const Obstacle* o : edit_.gone_obstacles)
+      for (const ColumnSpan& s : o->volume->spans)
+        if (spans(s))
+          for (IVec2 step : kBeside)
+            if (const std::int32_t slot = before_if_held(s.column + step); slot >= 0)
+              join(slot), sheet_at(tile_of(s.column));  // it may go on into the voxel
+  }
+  bool spans(const ColumnSpan& s) const { return s.low <= layer_ && layer_ < s.high; }
+
+  void join(std::int32_t slot) {
+    if (slot < 0 || joined_[static_cast<std::size_t>(slot)]) return;
+    joined_[static_cast<std::size_t>(slot)] = 1;
+    set_.push_back(slot);
+  }
+  bool has_joined(std::int32_t slot) const { return slot >= 0 && joined_[static_cast<std::size_t>(slot)]; }
+
+  // Sheets, loaded when first asked for; kGone off the domain.
+  std::int32_t sheet_at(IVec2 tile) {
+    if (!sheets_.empty() && sheets_[static_cast<std::size_t>(last_)].tile == tile) return last_;
+    const auto [at, added] = index_.emplace(packed(tile), static_cast<std::int32_t>(sheets_.size()));
+    if (added) load(tile);
+    return last_ = at->second;
+  }
+
+  void load(IVec2 tile) {
+    Sheet sheet;
+    sheet.tile = tile;
+    sheet.before.assign(kColumns, kFree);
+    if (const SpaceTile* held = edit_.before.find_tile(tile); held && held->has(layer_)) {
+      const std::size_t offset = held->offset(layer_);
+      std::copy_n(held->owner.begin() + static_cast<std::ptrdiff_t>(offset), kColumns, sheet.before.begin());
+      const auto under = std::partition_point(held->under_heroes.begin(), held->under_heroes.end(),
+                                              [&](const SpaceTile::Under& u) { return u.place < offset; });
+      for (auto u = under; u != held->under_heroes.end() && u->place < offset + kColumns; ++u)
+        sheet.before[u->place - offset] = u->owner;
+      const bool hangs = layer_ < held->highest_base;
+      for (std::int32_t& owner : sheet.before)
+        if (owner < 0 || (hangs && edit_.old_place(owner)->base > layer_)) owner = kFree;
+    }
+    sheet.now = sheet.before;
+    sheet.divided.assign(kColumns, 0);
+    sheet.open.assign(kColumns, 0);
+    const auto ground = edit_.ground_of(tile);
+    for (std::size_t c = 0; c < kColumns; ++c) sheet.open[c] = (*ground)[c] <= layer_;
+    for (const Obstacle& o : edit_.standing.obstacles)
+      for_each_span(*o.volume, tile, [&](const ColumnSpan& s) {
+        if (spans(s)) sheet.open[inside(s.column)] = 0;
+      });
+    sheets_.push_back(std::move(sheet));
+  }
+
+  std::int32_t before(IVec2 column) {
+    return sheets_[static_cast<std::size_t>(sheet_at(tile_of(column)))].before[inside(column)];
+  }
+  // Without loading tiles where nobody was.
+  std::int32_t before_if_held(IVec2 column) {
+    const SpaceTile* held = edit_.before.find_tile(tile_of(column));
+    return held && held->has(layer_) ? before(column) : kFree;
+  }
+
+  // Calls visit(column) for every voxel that a tree had in this layer, and some more around them.
+  template <class Visit>
+  void for_each_column(std::int32_t slot, const Visit& visit) {
+    const std::int32_t claimant = static_cast<std::size_t>(slot) < edit_.old_claimant.size()
+                                      ? edit_.old_claimant[static_cast<std::size_t>(slot)]
+                                      : kGone;
+    if (claimant == kGone) return;
+    const auto shares = edit_.before.shares(static_cast<std::size_t>(claimant));
+    const auto at =
+        std::partition_point(shares.begin(), shares.end(), [&](const LayerShare& s) { return s.layer < layer_; });
+    if (at != shares.end() && at->layer == layer_)
+      for (std::int32_t j = at->low.y; j <= at->high.y; ++j)
+        for (std::int32_t i = at->low.x; i <= at->high.x; ++i) visit(IVec2{i, j});
+    const auto key = std::tuple(slot, layer_);
+    for (auto h = std::partition_point(edit_.hidden.begin(), edit_.hidden.end(),
+                                       [&](const Hidden& x) { return std::tuple(x.slot, x.layer) < key; });
+         h != edit_.hidden.end() && std::tuple(h->slot, h->layer) == key; ++h)
+      visit(h->column);
+  }
+
+  void join_neighbours() {
+    const std::size_t size = set_.size();
+    for (; ringed_ < size; ++ringed_) {
+      const std::int32_t slot = set_[ringed_];
+      for_each_column(slot, [&](IVec2 c) {
+        if (before(c) != slot) return;
+        for (IVec2 step : kBeside) join(before_if_held(c + step));
+      });
+    }
+  }
+
+  void divide() {
+    // All that the joined trees had is loaded, so that it is theirs to divide again.
+    std::vector<Front> fronts;
+    for (std::int32_t slot : set_) {
+      for_each_column(slot, [&](IVec2 c) { sheet_at(tile_of(c)); });
+      const Placed* p = edit_.new_place(slot);
+      if (!p || !p->takes_part(layer_)) continue;
+      fronts.push_back(
+          front_of(*p, edit_.layout.rank[static_cast<std::size_t>(edit_.claimant[static_cast<std::size_t>(slot)])]));
+      fronts.back().owner = slot;
+      fronts.back().root = static_cast<std::uint32_t>(sheet_at(tile_of(p->root)) * kTileColumns) +
+                           static_cast<std::uint32_t>(inside(p->root));
+    }
+    LayerCells cells;
+    const auto block = [&](IVec2 tile) {
+      const auto at = index_.find(packed(tile));
+      return at == index_.end() ? LayerCells::kNoBlock : at->second;
+    };
+    for (Sheet& s : sheets_) {
+      const IVec2 t = s.tile;
+      cells.blocks.push_back(
+          {t * kEdge, block(t + kBeside[0]), block(t + kBeside[1]), block(t + kBeside[2]), block(t + kBeside[3])});
+      for (std::size_t c = 0; c < kColumns; ++c) {
+        const bool theirs = s.before[c] == kFree || has_joined(s.before[c]);
+        s.divided[c] = theirs;
+        cells.open.push_back(theirs && s.open[c]);
+      }
+    }
+    const LayerResult result = propagate(fronts, cells);
+    for (std::size_t n = 0; n < sheets_.size(); ++n) {
+      Sheet& s = sheets_[n];
+      for (std::size_t c = 0; c < kColumns; ++c) {
+        const std::int32_t f = result.front[n * kColumns + c];
+        if (s.divided[c]) s.now[c] = f == LayerResult::kUnclaimed ? kFree : fronts[static_cast<std::size_t>(f)].owner;
+      }
+      if (edit_.options.keep_ticks)
+        s.ticks.assign(result.ticks.begin() + static_cast<std::ptrdiff_t>(n * kColumns),
+                       result.ticks.begin() + static_cast<std::ptrdiff_t>((n + 1) * kColumns));
+    }
+  }
+
+  // Joins the held trees that touch what changed, and loads tiles that a changed tree can go on into. False when there
+  // are none.
+  bool widen() {
+    std::vector<std::uint8_t> changed(joined_.size(), 0);
+    for (std::int32_t slot : edit_.edited) changed[static_cast<std::size_t>(slot)] = 1;
+    for (const Sheet& s : sheets_)
+      for (std::size_t c = 0; c < kColumns; ++c) {
+        if (s.before[c] == s.now[c]) continue;
+        if (s.before[c] >= 0) changed[static_cast<std::size_t>(s.before[c])] = 1;
+        if (s.now[c] >= 0) changed[static_cast<std::size_t>(s.now[c])] = 1;
+      }
+    const std::size_t joined = set_.size(), sheets = sheets_.size();
+    bool wider = false;
+    for (std::size_t n = 0; n < sheets; ++n)
+      for (std::int32_t j = 0; j < kEdge; ++j)
+        for (std::int32_t i = 0; i < kEdge; ++i) {
+          const auto c = static_cast<std::size_t>(j * kEdge + i);
+          const std::int32_t was = sheets_[n].before[c], is = sheets_[n].now[c];
+          const bool grows = is >= 0 && changed[static_cast<std::size_t>(is)];
+          if (!grows && !(was >= 0 && changed[static_cast<std::size_t>(was)])) continue;
+          const bool inner = i > 0 && j > 0 && i < kEdge - 1 && j < kEdge - 1;
+          if (inner) {
+            for (std::int32_t step : {-1, 1, -kEdge, kEdge})
+              join(sheets_[n].before[static_cast<std::size_t>(static_cast<std::int32_t>(c) + step)]);
+            continue;
+          }
+          for (IVec2 step : kBeside) {
+            const IVec2 column = sheets_[n].tile * kEdge + IVec2{i, j} + step;
+            if (edit_.before.find_tile(tile_of(column))) join(before_if_held(column));
+            if (!grows || !reaches(*edit_.new_place(is), column)) continue;
+            const auto at = static_cast<std::size_t>(sheet_at(tile_of(column)));
+            if (at < sheets) continue;  // took part in the division
+            const Sheet& beside = sheets_[at];
+            wider = wider || (beside.open[inside(column)] && beside.before[inside(column)] == kFree);
+          }
+        }
+    return wider || set_.size() > joined;
+  }
+  bool reaches(const Placed& p, IVec2 column) const {
+    const double x = column.x + 0.5 - p.east, y = column.y + 0.5 - p.north;
+    return edit_.layout.domain.contains(column) && p.reach >= 0 && x * x + y * y <= p.reach * p.reach;
+  }
+
+  Edit& edit_;
+  std::int32_t layer_;
+  std::vector<std::uint8_t> joined_;
+  std::vector<std::int32_t> set_;
+  std::size_t ringed_ = 0;
+  std::vector<Sheet> sheets_;
+  std::unordered_map<std::uint64_t, std::int32_t> index_;
+  std::int32_t last_ = 0;
+};
+
+}  // namespace
+
+class SpaceUpdater {
+ public:
+  SpaceUpdater(const CrownSpace& previous, std::span<const Claimant> trees, const Standing& standing,
+               const terrain::Terrain& terrain, const SpaceOptions& options)
+      : previous_(previous), trees_(trees), standing_(standing), terrain_(terrain), options_(options) {}
+
+  Result<SpaceUpdate> run() {
+    if (auto checked = check_input(trees_, standing_, options_); !checked) return checked.error();
+    if (!previous_.layout_ || options_ != previous_.options_) return whole();
+    auto layout = lay_out(trees_, standing_, terrain_.size_m(), options_);
+    if (!layout) return layout.error();
+    if (layout->domain != previous_.layout_->domain) return whole();
+    layout_ = std::make_shared<const SpaceLayout>(std::move(*layout));
+
+    Edit edit{previous_,
+              *previous_.layout_,
+              *layout_,
+              standing_,
+              terrain_,
+              options_,
+              previous_.claimant_of_,
+              {},
+              {},
+              {},
+              {},
+              {},
+              {},
+              {}};
+    if (!match(edit)) return whole();
+    find_obstacle_edits(edit);
+    find_hidden(edit);
+    divide(edit);
+    rebuild_tiles(edit);
+    finish(edit);
+    if (static_cast<double>(update_.space.bytes()) > static_cast<double>(options_.memory_gb) * 1e9) return whole();
+    return std::move(update_);
+  }
+
+ private:
+  Result<SpaceUpdate> whole() const {
+    auto space = divide_space(trees_, standing_, terrain_, options_);
+    if (!space) return space.error();
+    SpaceUpdate update;
+    update.space = std::move(*space);
+    update.changed.resize(trees_.size());
+    std::iota(update.changed.begin(), update.changed.end(), std::size_t{0});
+    update.whole = true;
+    return update;
+  }
+
+  // Slots of the trees after the edit, and which of them have other fronts. False when ids are not unique.
+  bool match(Edit& edit) {
+    const auto old = previous_.claimants();
+    const auto n = trees_.size();
+    std::vector<std::int32_t> was(n, kGone);
+    const auto same_ids = [&] {
+      if (old.size() != n) return false;
+      for (std::size_t i = 0; i < n; ++i)
+        if (old[i].id != trees_[i].id) return false;
+      return true;
+    };
+    if (same_ids()) {
+      std::iota(was.begin(), was.end(), 0);
+    } else {
+      std::unordered_map<std::int32_t, std::int32_t> by_id(2 * old.size());
+      for (std::size_t i = 0; i < old.size(); ++i)
+        if (!by_id.emplace(old[i].id, static_cast<std::int32_t>(i)).second) return false;
+      for (std::size_t i = 0; i < n; ++i)
+        if (const auto at = by_id.find(trees_[i].id); at != by_id.end()) {
+          if (at->second == kGone) return false;
+          was[i] = std::exchange(at->second, kGone);
+        }
+    }
+
+    edit.claimant.assign(edit.old_claimant.size(), kGone);
+    slot_of_.assign(n, kGone);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (was[i] == kGone) continue;
+      const std::int32_t slot = slot_of_[i] = previous_.slot_of_[static_cast<std::size_t>(was[i])];
+      edit.claimant[static_cast<std::size_t>(slot)] = static_cast<std::int32_t>(i);
+      const Claimant &before = old[static_cast<std::size_t>(was[i])], &now = trees_[i];
+      if (before != now) update_.edits.insert(update_.edits.end(), {before, now}), edited_.push_back(slot);
+      if (before.key != now.key || layout_->placed[i] != previous_.layout_->placed[static_cast<std::size_t>(was[i])])
+        edit.edited.push_back(slot);
+    }
+    for (std::size_t s = 0; s < edit.old_claimant.size(); ++s)
+      if (edit.old_claimant[s] != kGone && edit.claimant[s] == kGone) {
+        edit.edited.push_back(static_cast<std::int32_t>(s));
+        update_.edits.push_back(old[static_cast<std::size_t>(edit.old_claimant[s])]);
+      }
+    // A new tree takes a slot that was empty before, else a new one.
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (slot_of_[i] != kGone) continue;
+      while (next < edit.old_claimant.size() && (edit.old_claimant[next] != kGone || edit.claimant[next] != kGone))
+        ++next;
+      if (next >= edit.claimant.size()) edit.claimant.push_back(kGone);
+      slot_of_[i] = static_cast<std::int32_t>(next);
+      edit.claimant[next] = static_cast<std::int32_t>(i);
+      edit.edited.push_back(slot_of_[i]);
+      edited_.push_back(slot_of_[i]);
+      update_.edits.push_back(trees_[i]);
+    }
+    return true;
+  }
+
+  void find_obstacle_edits(Edit& edit) {
+    const auto missing_in = [](const Obstacle& o, const Standing& in) {
+      return std::none_of(in.obstacles.begin(), in.obstacles.end(),
+                          [&](const Obstacle& other) { return other.id == o.id && other.volume == o.volume; });
+    };
+    const auto note = [&](const Obstacle& o, std::vector<const Obstacle*>& list) {
+      list.push_back(&o);
+      if (o.volume->spans.empty()) return;
+      update_.obstacle_edits.push_back(
+          {Vec2(o.volume->low) * options_.voxel_m, (Vec2(o.volume->high) + 1.0f) * options_.voxel_m});
+    };
+    for (const Obstacle& o : previous_.standing_.obstacles)
+      if (missing_in(o, standing_)) note(o, edit.gone_obstacles);
+    for (const Obstacle& o : standing_.obstacles)
+      if (missing_in(o, previous_.standing_)) note(o, edit.new_obstacles);
+  }
+
+  void find_hidden(Edit& edit) {
+    for (const auto& tile : previous_.tiles_)
+      for (const SpaceTile::Under& u : tile->under_heroes) {
+        if (u.owner < 0) continue;
+        const auto c = static_cast<std::int32_t>(u.place % kColumns);
+        edit.hidden.push_back({u.owner, tile->first_layer + static_cast<std::int32_t>(u.place / kColumns),
+                               tile->tile * kEdge + IVec2{c % kEdge, c / kEdge}});
+      }
+    std::sort(edit.hidden.begin(), edit.hidden.end(), [](const Hidden& a, const Hidden& b) {
+      return std::tie(a.slot, a.layer, a.column.y, a.column.x) < std::tie(b.slot, b.layer, b.column.y, b.column.x);
+    });
+  }
+
+  // Layers in which something that was edited takes part.
+  void divide(Edit& edit) {
+    std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::lowest();
+    const auto note = [&](const Placed* p) {
+      if (p) low = std::min(low, p->base), high = std::max(high, p->top);
+    };
+    if (!edit.gone_obstacles.empty() || !edit.new_obstacles.empty()) {
+      // Beyond the layers that any tree takes part in, an obstacle changes no front.
+      for (const Placed& p : edit.old_layout.placed) note(&p);
+      for (const Placed& p : edit.layout.placed) note(&p);
+    } else {
+      for (std::int32_t slot : edit.edited) note(edit.old_place(slot)), note(edit.new_place(slot));
+    }
+    for (std::int32_t k = low; k < high; ++k) layers_.push_back(std::make_unique<LayerUpdate>(edit, k));
+    parallel_for(layers_.size(), [&](std::size_t n) { layers_[n]->run(); });
+    first_layer_ = low;
+  }
+
+  struct Part {
+    std::int32_t layer;
+    const Sheet* sheet;
+  };
+  struct Touched {
+    IVec2 tile{0};
+    std::vector<Part> parts;
+    std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::lowest();
+    std::shared_ptr<const SpaceTile> tile_now;       ///< null when nothing is other
+    std::unordered_map<std::int32_t, Domain> moved;  ///< slot -> columns where it won or lost a voxel
+    void need(std::int32_t from, std::int32_t to) { low = std::min(low, from), high = std::max(high, to); }
+  };
+  Touched& touch(IVec2 tile) {
+    const auto [at, added] = touched_at_.emplace(packed(tile), touched_.size());
+    if (added) touched_.emplace_back().tile = tile;
+    return touched_[at->second];
+  }
+
+  void rebuild_tiles(Edit& edit) {
+    for (std::size_t n = 0; n < layers_.size(); ++n)
+      for (const Sheet& s : layers_[n]->sheets()) {
+        if (s.before == s.now && (!options_.keep_ticks || s.ticks.empty())) continue;
+        const std::int32_t layer = first_layer_ + static_cast<std::int32_t>(n);
+        Touched& t = touch(s.tile);
+        t.parts.push_back({layer, &s});
+        t.need(layer, layer + 1);
+      }
+    // Where an edited tree stood or stands, voxels may hang below its base.
+    for (std::int32_t slot : edit.edited) {
+      const std::int32_t c = static_cast<std::size_t>(slot) < edit.old_claimant.size()
+                                 ? edit.old_claimant[static_cast<std::size_t>(slot)]
+                                 : kGone;
+      if (c == kGone) continue;
+      for (const LayerShare& s : previous_.shares(static_cast<std::size_t>(c)))
+        for (std::int32_t n = tile_of(s.low).y; n <= tile_of(s.high).y; ++n)
+          for (std::int32_t e = tile_of(s.low).x; e <= tile_of(s.high).x; ++e) touch({e, n});
+    }
+    for (const Obstacle* o : edit.gone_obstacles)
+      for (const ColumnSpan& s : o->volume->spans)
+        if (previous_.find_tile(tile_of(s.column))) touch(tile_of(s.column));
+    for (const Obstacle* o : edit.new_obstacles)
+      for (const ColumnSpan& s : o->volume->spans)
+        if (layout_->domain.contains(s.column)) touch(tile_of(s.column)).need(s.high - 1, s.high);
+    const auto same = [](const std::vector<HeroVoxel>& a, const std::vector<HeroVoxel>& b) {
+      return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HeroVoxel& x, const HeroVoxel& y) {
+        return x.layer == y.layer && x.column == y.column && x.owner == y.owner;
+      });
+    };
+    const auto differ = [&](const SpaceLayout& a, const SpaceLayout& b) {
+      for (const auto& [tile, voxels] : a.heroes) {
+        const auto other = b.heroes.find(tile);
+        if (other != b.heroes.end() && same(voxels, other->second)) continue;
+        touch({static_cast<std::int32_t>(tile & 0xffffffffu), static_cast<std::int32_t>(tile >> 32)});
+      }
+    };
+    differ(edit.old_layout, edit.layout);
+    differ(edit.layout, edit.old_layout);
+    // Hero trees take voxels above the crowns too.
+    for (Touched& t : touched_)
+      if (const auto at = edit.layout.heroes.find(packed(t.tile)); at != edit.layout.heroes.end())
+        for (const HeroVoxel& v : at->second) t.need(v.layer, v.layer + 1);
+
+    std::int32_t highest = std::numeric_limits<std::int32_t>::lowest();
+    for (std::int32_t slot : edit.edited)
+      if (const Placed* p = edit.new_place(slot)) highest = std::max(highest, p->base);
+    for (const Touched& t : touched_) edit.ground_of(t.tile);
+    parallel_for(touched_.size(), [&](std::size_t n) { rebuild(edit, touched_[n], highest); });
+  }
+
+  void rebuild(Edit& edit, Touched& t, std::int32_t highest_base) const {
+    const SpaceTile* held = previous_.find_tile(t.tile);
+    if (!held && t.low >= t.high) return;
+    auto tile = std::make_shared<SpaceTile>();
+    tile->tile = t.tile;
+    tile->ground = edit.ground_of(t.tile);
+    std::int32_t low = t.low, high = t.high;
+    if (held)
+      low = std::min(low, held->first_layer), high = std::max(high, held->first_layer + held->layers);
+    else
+      low = std::min(low, *std::min_element(tile->ground->begin(), tile->ground->end()));
+    tile->first_layer = low;
+    tile->layers = high - low;
+    tile->highest_base = std::max(highest_base, held ? held->highest_base : highest_base);
+    const std::size_t voxels = static_cast<std::size_t>(tile->layers) * kColumns;
+    tile->owner.assign(voxels, kFree);
+    if (options_.keep_ticks) tile->ticks.assign(voxels, 0);
+
+    // What was there, without hero trees, what hung, and obstacles.
+    if (held) {
+      const auto shift = static_cast<std::ptrdiff_t>(tile->offset(held->first_layer));
+      std::copy(held->owner.begin(), held->owner.end(), tile->owner.begin() + shift);
+      if (options_.keep_ticks) std::copy(held->ticks.begin(), held->ticks.end(), tile->ticks.begin() + shift);
+      for (const SpaceTile::Under& u : held->under_heroes)
+        tile->owner[static_cast<std::size_t>(shift) + u.place] = u.owner;
+      const bool standing = !previous_.standing_.obstacles.empty();
+      for (std::int32_t k = held->first_layer; k < held->first_layer + held->layers; ++k) {
+        const bool hangs = k < held->highest_base;
+        if (!hangs && !standing) break;
+        const std::size_t from = tile->offset(k);
+        for (std::size_t c = from; c < from + kColumns; ++c) {
+          std::int32_t& owner = tile->owner[c];
+          if (owner < kFree) owner = kFree;
+          if (!hangs || owner < 0 || edit.old_place(owner)->base <= k) continue;
+          owner = kFree;
+          if (options_.keep_ticks) tile->ticks[c] = 0;
+        }
+      }
+    }
+    for (const Part& part : t.parts) {
+      const std::size_t from = tile->offset(part.layer);
+      for (std::size_t c = 0; c < kColumns; ++c) {
+        if (!part.sheet->divided[c]) continue;
+        tile->owner[from + c] = part.sheet->now[c];
+        if (options_.keep_ticks) tile->ticks[from + c] = part.sheet->ticks[c];
+      }
+    }
+    claim_for_obstacles(*tile, standing_);
+    hang_below_bases(*tile, [&](std::int32_t slot) { return edit.new_place(slot)->base; });
+    claim_for_heroes(*tile, *layout_);
+    compare(held, *tile, t.moved);
+    t.tile_now = std::move(tile);
+  }
+
+  // Which trees won or lost a voxel, and where.
+  static void compare(const SpaceTile* held, const SpaceTile& tile, std::unordered_map<std::int32_t, Domain>& moved) {
+    const auto note = [&](std::int32_t slot, IVec2 column) {
+      if (slot < 0) return;
+      const auto [at, added] = moved.emplace(slot, Domain{column, column});
+      at->second.low = glm::min(at->second.low, column), at->second.high = glm::max(at->second.high, column);
+    };
+    for (std::int32_t k = tile.first_layer; k < tile.first_layer + tile.layers; ++k) {
+      const std::int32_t* now = tile.owner.data() + tile.offset(k);
+      const std::int32_t* was = held && held->has(k) ? held->owner.data() + held->offset(k) : nullptr;
+      if (was && std::equal(now, now + kColumns, was)) continue;
+      for (std::int32_t c = 0; c < kTileColumns; ++c) {
+        const std::int32_t old = was ? was[c] : kFree;
+        if (now[c] == old) continue;
+        const IVec2 column = tile.tile * kEdge + IVec2{c % kEdge, c / kEdge};
+        note(old, column), note(now[c], column);
+      }
+    }
+  }
+
+  void finish(Edit& edit) {
+    CrownSpace& space = update_.space;
+    space.options_ = options_;
+    space.claimants_.assign(trees_.begin(), trees_.end());
+    space.standing_ = standing_;
+    space.layout_ = layout_;
+    space.slot_of_ = std::move(slot_of_);
+    space.claimant_of_ = std::move(edit.claimant);
+    replace_tiles();
+
+    // Trees whose voxels are others, and the columns that their shares may lie in.
+    std::unordered_map<std::int32_t, Domain> moved;
+    const auto grow = [&](std::int32_t slot, const Domain& by) {
+      const auto [at, added] = moved.emplace(slot, by);
+      at->second.low = glm::min(at->second.low, by.low), at->second.high = glm::max(at->second.high, by.high);
+    };
+    for (const Touched& t : touched_)
+      for (const auto& [slot, columns] : t.moved) grow(slot, columns);
+    std::vector<std::int32_t> slots;
+    for (const auto& [slot, columns] : moved) slots.push_back(slot);
+    std::sort(slots.begin(), slots.end());
+
+    space.shares_.resize(trees_.size());
+    for (std::size_t i = 0; i < trees_.size(); ++i) {
+      const std::int32_t was = old_of(edit, space.slot_of_[i]);
+      if (was != kGone) space.shares_[i] = previous_.shares_[static_cast<std::size_t>(was)];
+    }
+    const auto count = [](std::span<const LayerShare> shares) {
+      std::int64_t sum = 0;
+      for (const LayerShare& s : shares) sum += s.voxels;
+      return static_cast<std::size_t>(sum);
+    };
+    space.claimed_ = previous_.claimed_;
+    for (std::int32_t slot : slots)
+      if (const std::int32_t was = old_of(edit, slot); was != kGone) {
+        for (const LayerShare& s : previous_.shares(static_cast<std::size_t>(was))) grow(slot, {s.low, s.high});
+        space.claimed_ -= count(previous_.shares(static_cast<std::size_t>(was)));
+      }
+    parallel_for(slots.size(), [&](std::size_t n) {
+      const std::int32_t c = space.claimant_of_[static_cast<std::size_t>(slots[n])];
+      if (c != kGone) space.shares_[static_cast<std::size_t>(c)] = shares_in(space, slots[n], moved.at(slots[n]));
+    });
+    for (std::int32_t slot : slots)
+      if (const std::int32_t c = space.claimant_of_[static_cast<std::size_t>(slot)]; c != kGone)
+        space.claimed_ += count(space.shares(static_cast<std::size_t>(c)));
+
+    slots.insert(slots.end(), edited_.begin(), edited_.end());
+    for (std::int32_t slot : slots)
+      if (const std::int32_t c = space.claimant_of_[static_cast<std::size_t>(slot)]; c != kGone)
+        update_.changed.push_back(static_cast<std::size_t>(c));
+    std::sort(update_.changed.begin(), update_.changed.end());
+    update_.changed.erase(std::unique(update_.changed.begin(), update_.changed.end()), update_.changed.end());
+  }
+
+  static std::int32_t old_of(const Edit& edit, std::int32_t slot) {
+    return static_cast<std::size_t>(slot) < edit.old_claimant.size() ? edit.old_claimant[static_cast<std::size_t>(slot)]
+                                                                     : kGone;
+  }
+
+  void replace_tiles() {
+    auto& tiles = update_.space.tiles_;
+    tiles = previous_.tiles_;
+    const auto before = [](const auto& a, const auto& b) {
+      return a->tile.y < b->tile.y || (a->tile.y == b->tile.y && a->tile.x < b->tile.x);
+    };
+    std::vector<std::shared_ptr<const SpaceTile>> fresh;
+    for (Touched& t : touched_) {
+      if (!t.tile_now) continue;
+      const auto at = std::lower_bound(tiles.begin(), tiles.end(), t.tile_now, before);
+      if (at != tiles.end() && (*at)->tile == t.tile)
+        *at = std::move(t.tile_now);
+      else
+        fresh.push_back(std::move(t.tile_now));
+    }
+    tiles.insert(tiles.end(), fresh.begin(), fresh.end());
+    if (!fresh.empty()) std::sort(tiles.begin(), tiles.end(), before);
+  }
+
+  // A tree's shares, all of whose voxels lie within `columns`.
+  static std::shared_ptr<const std::vector<LayerShare>> shares_in(const CrownSpace& space, std::int32_t slot,
+                                                                  const Domain& columns) {
+    std::vector<const SpaceTile*> tiles;
+    std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::lowest();
+    for (std::int32_t n = tile_of(columns.low).y; n <= tile_of(columns.high).y; ++n)
+      for (std::int32_t e = tile_of(columns.low).x; e <= tile_of(columns.high).x; ++e)
+        if (const SpaceTile* tile = space.find_tile({e, n})) {
+          tiles.push_back(tile);
+          low = std::min(low, tile->first_layer), high = std::max(high, tile->first_layer + tile->layers);
+        }
+    auto out = std::make_shared<std::vector<LayerShare>>();
+    for (std::int32_t k = low; k < high; ++k) {
+      LayerShare share;
+      share.layer = k;
+      for (const SpaceTile* tile : tiles) {
+        if (!tile->has(k)) continue;
+        const IVec2 corner = tile->tile * kEdge;
+        const IVec2 from = glm::max(columns.low, corner), to = glm::min(columns.high, corner + (kEdge - 1));
+        for (std::int32_t j = from.y; j <= to.y; ++j) {
+          const std::int32_t* row = tile->owner.data() + tile->offset(k) + (j - corner.y) * kEdge - corner.x;
+          for (std::int32_t i = from.x; i <= to.x;) {
+            if (row[i] != slot) {
+              ++i;
+              continue;
+            }
+            const std::int32_t first = i;
+            while (i <= to.x && row[i] == slot) ++i;
+            add_run(share, {first, j}, i - first);
+          }
+        }
+      }
+      if (share.voxels > 0) out->push_back(share);
+    }
+    return out;
+  }
+
+  const CrownSpace& previous_;
+  std::span<const Claimant> trees_;
+  const Standing& standing_;
+  const terrain::Terrain& terrain_;
+  const SpaceOptions& options_;
+  std::shared_ptr<const SpaceLayout> layout_;
+  std::vector<std::int32_t> slot_of_, edited_;
+  std::vector<std::unique_ptr<LayerUpdate>> layers_;
+  std::int32_t first_layer_ = 0;
+  std::vector<Touched> touched_;
+  std::unordered_map<std::uint64_t, std::size_t> touched_at_;
+  SpaceUpdate update_;
+};
+
+Result<SpaceUpdate> update_space(const CrownSpace& previous, std::span<const Claimant> trees, const Standing& standing,
+                                 const terrain::Terrain& terrain, const SpaceOptions& options) {
+  return SpaceUpdater(previous, trees, sorted(standing), terrain, options).run();
+}
+
+}  // namespace bosquet::crowns

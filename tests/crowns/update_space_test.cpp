@@ -1,0 +1,246 @@
+#include "crowns/update_space.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/parallel.h"
+#include "stands.h"
+
+namespace bosquet::crowns {
+namespace {
+
+// A place in a space, or what a space holds where it keeps nothing.
+struct Reader {
+  const CrownSpace& space;
+  const SpaceTile* tile = nullptr;
+
+  std::int32_t owner(std::int32_t layer, std::size_t c) const {
+    if (!tile || !tile->has(layer)) return kFree;
+    const std::int32_t held = tile->owner[tile->offset(layer) + c];
+    return held < 0 ? held : space.claimants()[static_cast<std::size_t>(space.claimant_of(held))].id;
+  }
+  std::uint64_t tick(std::int32_t layer, std::size_t c) const {
+    return tile && tile->has(layer) && !tile->ticks.empty() ? tile->ticks[tile->offset(layer) + c] : 0;
+  }
+};
+
+// The first voxel in which two spaces differ, in words; empty when there is none.
+std::string difference(const CrownSpace& a, const CrownSpace& b) {
+  std::set<std::pair<int, int>> tiles;
+  for (const CrownSpace* s : {&a, &b})
+    for (const auto& t : s->tiles()) tiles.insert({t->tile.y, t->tile.x});
+  for (const auto& [n, e] : tiles) {
+    const Reader left{a, a.find_tile({e, n})}, right{b, b.find_tile({e, n})};
+    std::int32_t low = 1 << 20, high = -(1 << 20);
+    for (const SpaceTile* t : {left.tile, right.tile})
+      if (t) low = std::min(low, t->first_layer), high = std::max(high, t->first_layer + t->layers);
+    for (std::int32_t k = low; k < high; ++k)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(kTileColumns); ++c)
+        if (left.owner(k, c) != right.owner(k, c) || left.tick(k, c) != right.tick(k, c))
+          return "voxel (" + std::to_string(e * 64 + static_cast<int>(c % 64)) + ", " + std::to_string(k) + ", " +
+                 std::to_string(n * 64 + static_cast<int>(c / 64)) + "): owner " + std::to_string(left.owner(k, c)) +
+                 " at " + std::to_string(left.tick(k, c)) + ", in whole " + std::to_string(right.owner(k, c)) + " at " +
+                 std::to_string(right.tick(k, c));
+  }
+  if (a.claimed_voxels() != b.claimed_voxels()) return "numbers of claimed voxels";
+  for (std::size_t t = 0; t < a.claimants().size(); ++t)
+    if (!std::ranges::equal(a.shares(t), b.shares(t))) return "shares of tree " + std::to_string(a.claimants()[t].id);
+  return {};
+}
+
+// A stand that is edited at random: trees come, go, move, grow; buildings and hero trees come, go and move.
+class Play {
+ public:
+  Play(std::uint64_t seed, bool hilly, bool standing, SpaceOptions options)
+      : draw_(seed, 1, Purpose::statistics), may_stand_(standing), options_(options) {
+    terrain_ =
+        ground(kSide, [hilly](Vec2 p) { return hilly ? 0.3f * p.x + 0.02f * (p.y - 10.0f) * (p.y - 10.0f) : 0.0f; });
+    for (int n = 0; n < 25; ++n) add_tree();
+  }
+
+  void edit() {
+    const std::uint32_t kind = draw_.below(may_stand_ ? 14 : 10);
+    if (kind == 0 || trees_.size() < 3) return add_tree();
+    const std::size_t which = draw_.below(static_cast<std::uint32_t>(trees_.size()));
+    Claimant& t = trees_[which];
+    if (kind == 1) {
+      trees_.erase(trees_.begin() + static_cast<std::ptrdiff_t>(which));
+    } else if (kind <= 4) {
+      place(t, t.base + Vec2{draw_.uniform(-1.5f, 1.5f), draw_.uniform(-1.5f, 1.5f)});
+    } else if (kind == 5) {
+      place(t, anywhere());
+    } else if (kind == 6) {
+      place(t, trees_[draw_.below(static_cast<std::uint32_t>(trees_.size()))].base);  // two in one place
+    } else if (kind <= 8) {
+      t.scale_width = draw_.uniform(0.4f, 1.4f);
+    } else if (kind == 9) {
+      t.scale_height = draw_.uniform(0.4f, 1.4f);
+    } else if (kind <= 11) {
+      edit_building();
+    } else {
+      edit_hero();
+    }
+  }
+
+  std::vector<Claimant> trees_;
+  Standing standing_;
+  terrain::Terrain terrain_;
+
+ private:
+  static constexpr float kSide = 20.0f;
+
+  Vec2 anywhere() { return {draw_.uniform(0.0f, kSide), draw_.uniform(0.0f, kSide)}; }
+  void place(Claimant& t, Vec2 at) {
+    t.base = glm::clamp(at, Vec2{0.0f}, Vec2{kSide});
+    t.ground_y = terrain_.ground(t.base);
+  }
+  void add_tree() {
+    Claimant t = tree(++last_id_, {}, 5.0f, 8.0f);
+    t.scale_width = draw_.uniform(0.4f, 1.4f), t.scale_height = draw_.uniform(0.4f, 1.4f);
+    place(t, anywhere());
+    trees_.insert(trees_.begin() + draw_.below(static_cast<std::uint32_t>(trees_.size() + 1)), t);
+  }
+  void edit_building() {
+    if (standing_.obstacles.size() > 2) {
+      standing_.obstacles.erase(standing_.obstacles.begin() + draw_.below(3));
+      return;
+    }
+    const Vec2 low = anywhere() - 3.0f, size{draw_.uniform(0.5f, 6.0f), draw_.uniform(0.5f, 6.0f)};
+    const float bottom = draw_.uniform(-1.0f, 4.0f), top = bottom + draw_.uniform(1.0f, 9.0f);
+    standing_.obstacles.push_back(building(--last_standing_, low, low + size, bottom, top, options_.voxel()));
+  }
+  void edit_hero() {
+    if (standing_.heroes.size() > 1) {
+      standing_.heroes.erase(standing_.heroes.begin());
+      return;
+    }
+    const Vec2 at = anywhere();
+    std::vector<Segment> wood;
+    for (int n = 0; n < 12; ++n) {
+      const float y = terrain_.ground(at) + draw_.uniform(0.0f, 9.0f);
+      const Vec2 tip = at + Vec2{draw_.uniform(-4.0f, 4.0f), draw_.uniform(-4.0f, 4.0f)};
+      wood.push_back({to_world(at, y), to_world(tip, y + draw_.uniform(0.0f, 3.0f)), draw_.uniform(0.02f, 0.5f)});
+    }
+    standing_.heroes.push_back(
+        {--last_standing_, "hero", std::make_shared<const std::vector<Segment>>(std::move(wood))});
+  }
+
+  RandomStream draw_;
+  bool may_stand_;
+  SpaceOptions options_;
+  std::int32_t last_id_ = 0, last_standing_ = 0;
+};
+
+void play(std::uint64_t seed, bool hilly, bool standing, SpaceOptions options, int edits) {
+  options.keep_ticks = true;
+  Play play(seed, hilly, standing, options);
+  CrownSpace space = *divide_space(play.trees_, play.standing_, play.terrain_, options);
+  std::vector<Vec3> v = neighbourhood_asymmetry(space, {});
+  for (int n = 0; n < edits; ++n) {
+    play.edit();
+    auto update = update_space(space, play.trees_, play.standing_, play.terrain_, options);
+    ASSERT_TRUE(update) << update.error().message;
+    ASSERT_FALSE(update->whole);
+    const CrownSpace whole = *divide_space(play.trees_, play.standing_, play.terrain_, options);
+    ASSERT_EQ(difference(update->space, whole), "") << "seed " << seed << ", edit " << n;
+
+    // The trees named are those with other voxels, and whoever was edited.
+    for (std::size_t t = 0; t < play.trees_.size(); ++t) {
+      const auto old = std::find_if(space.claimants().begin(), space.claimants().end(),
+                                    [&](const Claimant& c) { return c.id == play.trees_[t].id; });
+      const bool named = std::binary_search(update->changed.begin(), update->changed.end(), t);
+      if (old == space.claimants().end() || !(*old == play.trees_[t])) {
+        ASSERT_TRUE(named);
+        continue;
+      }
+      const CrownRegion was = region(space, static_cast<std::size_t>(old - space.claimants().begin())),
+                        is = region(whole, t);
+      ASSERT_EQ(named, was.low != is.low || was.cells != is.cells || was.bits != is.bits)
+          << "seed " << seed << ", edit " << n << ", tree " << play.trees_[t].id;
+    }
+    std::vector<std::size_t> leaning;
+    const auto updated = update_asymmetry(space, v, *update, {}, nullptr, &leaning);
+    ASSERT_EQ(updated, neighbourhood_asymmetry(whole, {})) << "seed " << seed << ", edit " << n;
+    v = updated;
+    space = std::move(update->space);
+  }
+}
+
+SpaceOptions coarse(float voxel_m = 0.5f) {
+  SpaceOptions o;
+  o.voxel_m = voxel_m;
+  return o;
+}
+
+TEST(SpaceUpdate, AfterEachOfManyEditsEveryVoxelIsAsInAWholeDivision) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) play(seed, false, false, coarse(), 100);
+}
+
+TEST(SpaceUpdate, OnSlopesToo) {
+  for (std::uint64_t seed = 11; seed <= 12; ++seed) play(seed, true, false, coarse(), 100);
+}
+
+TEST(SpaceUpdate, WithBuildingsAndHeroTreesThatComeAndGoToo) {
+  for (std::uint64_t seed = 21; seed <= 23; ++seed) play(seed, false, true, coarse(), 80);
+  for (std::uint64_t seed = 31; seed <= 32; ++seed) play(seed, true, true, coarse(), 80);
+}
+
+TEST(SpaceUpdate, WithoutLimitOfReachToo) {
+  SpaceOptions o = unlimited(0.4f, 2.0f);
+  play(41, true, true, o, 40);
+  o.speed_exponent = 0.5f;
+  o.overhang_m = 3;
+  play(42, false, true, o, 40);
+}
+
+TEST(SpaceUpdate, ItIsTheSameForAnyNumberOfThreads) {
+  auto trees = clustered(5, 60, 40.0f, 7.0f, 12.0f, 4.0f);
+  const auto terrain = flat(40);
+  const CrownSpace space = *divide_space(trees, terrain, SpaceOptions{});
+  trees[10].base += 1.5f;
+  const auto expected = *update_space(space, trees, {}, terrain, SpaceOptions{});
+  for (int threads : {1, 2, 8})
+    run_with_threads(threads, [&] {
+      const auto got = *update_space(space, trees, {}, terrain, SpaceOptions{});
+      EXPECT_EQ(difference(got.space, expected.space), "");
+      EXPECT_EQ(got.changed, expected.changed);
+    });
+}
+
+TEST(SpaceUpdate, TilesThatNothingChangedInAreShared) {
+  auto trees = clustered(5, 400, 100.0f, 10.0f, 10.0f, 4.0f);
+  const auto terrain = flat(100);
+  const CrownSpace space = *divide_space(trees, terrain, SpaceOptions{});
+  trees[7].base += 0.8f;
+  const auto update = *update_space(space, trees, {}, terrain, SpaceOptions{});
+  EXPECT_GT(update.changed.size(), 1u);
+  EXPECT_LT(update.changed.size(), 60u);
+  std::size_t copied = 0;
+  for (const auto& tile : update.space.tiles()) copied += tile.get() != space.find_tile(tile->tile);
+  EXPECT_GT(copied, 0u);
+  EXPECT_LT(copied, 10u);
+}
+
+TEST(SpaceUpdate, WithoutAnEditNothingChanges) {
+  const auto trees = clustered(5, 60, 40.0f, 7.0f, 12.0f, 4.0f);
+  const auto terrain = flat(40);
+  const CrownSpace space = *divide_space(trees, terrain, SpaceOptions{});
+  const auto update = *update_space(space, trees, {}, terrain, SpaceOptions{});
+  EXPECT_TRUE(update.changed.empty());
+  for (const auto& tile : update.space.tiles()) EXPECT_EQ(tile.get(), space.find_tile(tile->tile));
+}
+
+TEST(SpaceUpdate, OtherOptionsDivideAllAnew) {
+  const auto trees = clustered(5, 20, 30.0f, 7.0f, 12.0f, 4.0f);
+  const auto terrain = flat(30);
+  const CrownSpace space = *divide_space(trees, terrain, SpaceOptions{});
+  const auto update = *update_space(space, trees, {}, terrain, coarse());
+  EXPECT_TRUE(update.whole);
+  EXPECT_EQ(update.changed.size(), trees.size());
+  EXPECT_EQ(difference(update.space, *divide_space(trees, terrain, coarse())), "");
+}
+
+}  // namespace
+}  // namespace bosquet::crowns
