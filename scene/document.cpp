@@ -22,6 +22,7 @@ void set_measured_size(Tree& tree, const Species& species, std::optional<float> 
     if (!height_m) tree.scale_height = tree.scale_width;
   }
   tree.trunk_diameter_m = trunk_diameter_m;
+  tree.measured = height_m || crown_diameter_m;
 }
 
 }  // namespace bosquet::scene

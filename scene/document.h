@@ -7,6 +7,7 @@
 //           ties, so adding or removing one tree changes no other
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct Tree {
   Vec2 at{0.0f};            ///< plan
   float scale_height = 1.0f, scale_width = 1.0f;
   std::optional<float> trunk_diameter_m;  ///< given at 1.3 m; missing: as thick as it grows
+  bool measured = false;                  ///< the size is what it has today, not what it will have
   std::string inventory_name;             ///< what an inventory called its kind
   std::string inventory_id;
 };
@@ -56,6 +58,13 @@ struct Document {
   const Species& species_of(const Tree& tree) const { return *species[tree.species]; }
   /// Height at which the tree stops growing.
   float mature_height_m(const Tree& tree) const { return tree.scale_height * species_of(tree).shape.mature_height_m; }
+  /// Where the tree's height curve ends (growth/age.h): a measured tree, or one below the sizes that are planted, is on
+  /// its way to a grown one.
+  float full_height_m(const Tree& tree) const {
+    const Species& kind = species_of(tree);
+    const float grown = tree.measured ? 1.0f : kind.planting.scale_min;
+    return std::max(tree.scale_height, grown) * kind.shape.mature_height_m;
+  }
 };
 
 /// Scales and trunk of a tree from what was measured of it. With a trunk diameter, missing height and crown follow the

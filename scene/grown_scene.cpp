@@ -42,13 +42,13 @@ GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::Cr
     if (auto done = growth::constrain_trunk(skeleton, *tree.trunk_diameter_m); !done)
       warning = fmt::format("tree {} ({}): {}", tree.id, species.name, done.error().message);
 
-  // A tree of scale S is a tree on its way to the species' height, so its age follows from its own height.
-  const float share = std::min(1.0f, tree.scale_height);
-  grown.age_years = growth::age_at_height_share(species.growth, std::min(share, 0.95f));
+  const float full = document.full_height_m(tree);
+  const float today = growth::age_at_height(species.growth, full, input.max_height_m);
+  grown.age_years = today;
   if (options.year) {
-    const float height = growth::height_share_at_age(species.growth, *options.year) * input.max_height_m;
-    grown.season = growth::season_at_height(skeleton, height);
-    grown.age_years = *options.year;
+    grown.season = growth::season_at_age(species.growth, skeleton, full, input.max_height_m, *options.year);
+    // Nobody knows a growing tree at a later age; a grown one only gets older.
+    if (*options.year < today || input.max_height_m >= full) grown.age_years = *options.year;
   }
   grown.measures = growth::measure(skeleton, grown.season);
   grown.skeleton = std::make_shared<const growth::Skeleton>(std::move(skeleton));

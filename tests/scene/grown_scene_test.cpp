@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "growth/age.h"
 #include "growth/digest.h"
 #include "tests/scene/sample_document.h"
 
@@ -70,6 +71,31 @@ TEST(GrownScene, SwitchingRegionsOffLetsCrownsCross) {
   for (std::size_t i = 0; i < kept.trees.size(); ++i)
     inside += kept.trees[i].measures.crown_diameter_m, free += loose.trees[i].measures.crown_diameter_m;
   EXPECT_LT(inside, 0.9 * free);
+}
+
+TEST(GrownScene, AtTheAgeThatItIsSaidToHaveATreeIsAsItIs) {
+  for (const bool measured : {false, true}) {
+    for (const float scale : {0.1f, 0.5f, 0.8f, 1.0f}) {
+      Document document = sample_document("silver_birch", {{9, 9}}, {18, 18}, scale);
+      std::vector<Tree> trees = *document.trees;
+      trees[0].measured = measured;
+      document.trees = std::make_shared<const std::vector<Tree>>(trees);
+      const GrownScene today = grow(document);
+      GrowOptions at;
+      at.year = today.trees[0].age_years;
+      const GrownScene then = grow(document, at);
+      EXPECT_EQ(then.trees[0].age_years, today.trees[0].age_years);
+      EXPECT_EQ(then.trees[0].measures.height_m, today.trees[0].measures.height_m);
+      EXPECT_EQ(then.trees[0].measures.internodes, today.trees[0].measures.internodes);
+      // A measured tree of half the height is young; a planted one of 0.8 is a grown tree on a poor place.
+      const float age = growth::age_at_height_share(document.species[0]->growth, 0.95f);
+      if (measured && scale < 0.9f) {
+        EXPECT_LT(today.trees[0].age_years, 0.8f * age);
+      } else if (!measured && scale > 0.75f) {
+        EXPECT_FLOAT_EQ(today.trees[0].age_years, age);
+      }
+    }
+  }
 }
 
 TEST(GrownScene, AtAnEarlierYearTreesAreSmallerAndAtLaterOnesTaller) {
