@@ -20,7 +20,6 @@
 namespace bosquet::cli {
 namespace {
 
-constexpr std::uint64_t kKey = 1;
 constexpr std::size_t kRowTriangles = 6'000'000;
 constexpr float kLeafMargin_m = 0.4f;                             // beyond the wood, on each side
 constexpr float kGapOfHeight = 0.04f;                             // between trees, of the row's tallest
@@ -64,7 +63,7 @@ Portrait grow_portrait(const scene::Species& species, const GalleryOptions& opti
   input.max_height_m = species.shape.mature_height_m;
   input.detail = options.detail;
   input.seed = options.seed;
-  input.key = kKey;
+  input.key = kGalleryKey;
   auto skeleton = std::make_shared<const growth::Skeleton>(growth::grow(input, progress));
   for (float age : ages_of(species, options)) {
     Portrait::Stage stage;
@@ -198,7 +197,7 @@ scene::GrownScene row_scene(const Row& row, const std::vector<Place>& places, bo
           std::make_shared<const scene::Species>(*row.portraits[document.species.size()]->species));
     scene::Tree tree;
     tree.id = static_cast<std::int32_t>(i + 1);
-    tree.key = kKey;
+    tree.key = kGalleryKey;
     tree.species = static_cast<std::size_t>(at);
     tree.at = {place.x_m, 10.0f};
     trees.push_back(tree);
@@ -296,8 +295,8 @@ void draw_scale(Sheet& sheet, const Page& page, const Row& row, double ground_y)
 void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vector<Place>& places, double left,
                  double ground_y) {
   const auto x_of = [&](float x_m) { return left + row.scale * static_cast<double>(x_m); };
-  sheet.line(page.margin() + page.axis(), ground_y, page.width - page.margin(), ground_y, 0.10 * page.unit(),
-             kGroundColour);
+  // The line's upper edge is the ground.
+  sheet.box(page.margin() + page.axis(), ground_y, page.inner(), std::max(1.0, 0.10 * page.unit()), kGroundColour);
   const double name_y = ground_y - row.scale * static_cast<double>(row.height_m) - 0.9 * page.unit();
   double free_from = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -8,8 +8,7 @@
 // Errors    unknown species; a size no row fits in; no graphics (kind cannot_finish)
 #pragma once
 
-#include <filesystem>
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -19,6 +18,9 @@
 #include "scene/species.h"
 
 namespace bosquet::cli {
+
+/// Key of every tree of the sheet.
+inline constexpr std::uint64_t kGalleryKey = 1;
 
 struct GalleryOptions {
   std::vector<float> ages;  ///< years; empty: 10, middle and last of the species' own [[size]] rows

@@ -192,6 +192,44 @@ TEST_F(Commands, SpeciesAreListedAndShown) {
   EXPECT_NE(bosquet("species show norway_spruce").out.find("[growth]"), std::string::npos);
 }
 
+TEST_F(Commands, CalibrateHoldsASpeciesAgainstItsRowsAndWritesWhatItMeasured) {
+  const std::string rows = "[[size]]\nage_years = 60\nheight_m = 6\ncrown_m = 30\ntrunk_cm = 15\n";
+  const std::string text =
+      "name = \"shrub\"\n[shape]  # measured\ncrown_width_m = 1\nmature_height_m = 7\n[growth]\n"
+      "internode_length_m = 0.17\n" +
+      rows;
+  write("shrub.toml", text);
+  const Ran ran = bosquet("species calibrate shrub.toml --trees 2 --quick -o tuned.toml");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("FAIL: at 60 years crown -"), std::string::npos) << ran.out;
+  const std::string tuned = file_text(folder_ / "tuned.toml");
+  EXPECT_NE(tuned.find("[shape]  # measured\n"), std::string::npos);
+  EXPECT_EQ(tuned.find("crown_width_m = 1\n"), std::string::npos) << tuned;
+  EXPECT_NE(tuned.find("pipe_exponent = "), std::string::npos);
+  EXPECT_NE(tuned.find(rows), std::string::npos);
+  EXPECT_EQ(file_text(folder_ / "shrub.toml"), text);
+  // What it wrote is what it measures.
+  bosquet("species calibrate tuned.toml --trees 2 --quick -o again.toml");
+  EXPECT_EQ(file_text(folder_ / "again.toml"), tuned);
+}
+
+TEST_F(Commands, SpeciesCommandsRefuseWhatTheyCannotRead) {
+  EXPECT_NE(bosquet("species calibrate english_oka").err.find("did you mean 'english_oak'?"), std::string::npos);
+  EXPECT_EQ(bosquet("species calibrate missing.toml").status, 1);
+  EXPECT_EQ(bosquet("species gallery english_oak -o sheet.gif").status, 1);
+  EXPECT_EQ(bosquet("species gallery english_oak -o missing/sheet.png").status, 1);
+  EXPECT_EQ(bosquet("species gallery english_oak --ages 0 -o sheet.png").status, 1);
+  write("bad.toml", "name = \"bad\"\n[[size]]\nage_years = 10\n");
+  EXPECT_NE(bosquet("species show bad.toml").err.find("bad.toml:2: this [[size]] lacks 'height_m'"), std::string::npos);
+}
+
+TEST_F(Commands, AGalleryIsAPictureOfItsSize) {
+  const Ran ran = bosquet("species gallery silver_birch --ages 6 --size 400x300 -o sheet.png --quiet");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_EQ(ran.out, "");
+  EXPECT_EQ(file_text(folder_ / "sheet.png").substr(16, 4), std::string("\0\0\x01\x90", 4));  // the width, 400
+}
+
 TEST_F(Commands, AnInterruptEndsCleanlyWithStatusTwoAndNoHalfFile) {
   write("large.toml",
         "[site]\nsize_m = [60, 60]\n[[planting]]\nspecies = { english_oak = 1 }\ncount = 60\nscale = [0.8, 1.0]\n");
