@@ -68,6 +68,9 @@ std::uint64_t hash(const GrowthInput& input) {
   describe(*input.parameters, visit);
   hasher.add(input.max_height_m).add(input.asymmetry).add(input.clear_stem_m).add(input.detail);
   hasher.add(input.seed).add(input.key);
+  hasher.add(static_cast<std::uint64_t>(input.markers.size()));
+  for (const Vec3& marker : input.markers) hasher.add(marker);
+  hasher.add(input.region ? 1 : 0).add(input.light ? 1 : 0);
   if (const crowns::CrownRegion* r = input.region) {
     hasher.add(r->low).add(r->voxel_m).add(r->layer_m).add(r->cells.x).add(r->cells.y).add(r->cells.z);
     hasher.add_all(std::span<const std::uint64_t>(r->bits));

@@ -8,12 +8,15 @@
 // Decision  a metamer's lateral buds stand at its base; the first metamer of an axis carries none (its base is the
 //           parent's node)
 // Decision  h_max / l is kept >= 40: a small tree has smaller internodes, and with them r, d, shadow cells and twigs
+// Decision  with painted markers the tree grows only into them: they stay until wood comes near, buds wait for them as
+//           long as it takes, and growth ends when none can be claimed any more (painted.cpp)
 // Decision  detail is the resolution of the result, not a step of the model: a tree is the same at any (detail.h)
 // Holds     the skeleton is a pure function of the input: the same bits on any thread, in any order, in any build
 // Cost      about 2-5 microseconds an internode; work arrays are kept per thread from tree to tree
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/progress.h"
 #include "core/vec.h"
@@ -31,6 +34,7 @@ struct GrowthInput {
   Vec3 asymmetry{0.0f};                         ///< V, horizontal
   const Transmittance* light = nullptr;         ///< of the other trees' canopy; null: full light
   float clear_stem_m = 0.0f;                    ///< below it no branch grows
+  std::span<const Vec3> markers;                ///< painted; empty: the tree's buds drop their own
   float detail = 1.0f;                          ///< 0.25 - 4
   std::uint64_t seed = 0;                       ///< of the document
   std::uint64_t key = 0;                        ///< of the tree

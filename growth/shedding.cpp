@@ -4,6 +4,7 @@
 // Decision  size in internodes at detail 1, both as they were when vigor was shared; v at the root is Q at the root, so
 //           v / size is about the mean exposure of its internodes
 #include <cstddef>
+#include <limits>
 
 #include "growth/tree.h"
 
@@ -56,7 +57,8 @@ void shed(Tree& tree) {
 
 void bury_dead_buds(Tree& tree) {
   Buds& buds = tree.buds;
-  const int life = tree.parameters->bud_life_seasons;
+  const bool painted = !tree.input->markers.empty();  // then buds wait for the next stroke
+  const int life = painted ? std::numeric_limits<int>::max() : tree.parameters->bud_life_seasons;
   std::size_t kept = 0;
   for (const std::int32_t bud : tree.living) {
     const auto b = static_cast<std::size_t>(bud);

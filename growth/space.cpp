@@ -46,6 +46,7 @@ class RegionTest {
 };
 
 void drop_and_claim(Tree& tree) {
+  if (!tree.input->markers.empty()) return claim_painted(tree);
   Buds& buds = tree.buds;
   tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
   const float rate = tree.parameters->marker_rate;

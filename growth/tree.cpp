@@ -112,6 +112,14 @@ void plant(Tree& tree, const GrowthInput& input) {
   tree.occupancy.reset(room, tree.occupied_m);
   tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
 
+  tree.markers.clear(), tree.found_marker = false, tree.highest_marker_m = 0.0f;
+  for (const Vec3& marker : input.markers) {
+    assert(glm::dot(marker, marker) < 1e12f);  // finite, and on any site
+    if (marker.y <= 0.0f || !in_region(tree, marker)) continue;
+    tree.markers.push_back(marker);
+    tree.highest_marker_m = std::max(tree.highest_marker_m, marker.y);
+  }
+
   // Several stems lean apart, evenly around; in a plane to both sides.
   const float turn = p.planar ? 0.0f : 2.0f * kPi * tree.random.uniform();
   for (int i = 0; i < p.stems; ++i) {

@@ -106,6 +106,9 @@ struct Tree {
   PerceptionSamples samples;
   CompetitorIndex competitors;
   std::vector<Competitor> competing;
+  std::vector<Vec3> markers;          ///< painted ones, not yet consumed
+  float highest_marker_m = 0;         ///< of those painted
+  bool found_marker = false;          ///< some bud perceived a painted one
   std::vector<float> light_response;  ///< L^kappa for L = i / kLightSteps, for each distinct kappa
   std::vector<std::int32_t> counts;   ///< by internode: how many stand on it, itself included, before this season's
   GrowthWork work;
@@ -151,6 +154,8 @@ void sense_light(Tree& tree);
 /// Markers dropped by the living buds, and who got them (space.cpp). `rest` is only those still growing.
 void compete_for_space(Tree& tree);
 void compete_for_space_again(Tree& tree);
+/// The same with painted markers: who of `competing` gets them (painted.cpp).
+void claim_painted(Tree& tree);
 
 /// Signal down, vigor up (vigor.cpp): fills flow of the living buds, finds v_max of the enabled ones and the branches
 /// that fail.

@@ -1,0 +1,43 @@
+// Painted growth: markers set by hand, and the buds that claim them.
+//
+// Source    Longay 2014, 4.3.1 (directed growth) and 5.2.1 (the brush); Runions et al. 2007
+// Model     a marker stays until wood comes nearer than r; until then it goes, before every metamer, to the nearest bud
+//           that perceives it. Buds drop none of their own, and none dies of waiting
+// Decision  markers below ground or outside the region are never claimed. Laterals claim none below the clear stem
+// Decision  until a marker is perceived for the first time, stems grow on straight as far as the highest one: the trunk
+//           of a tree whose crown was painted in the air
+#include "growth/tree.h"
+
+namespace bosquet::growth {
+
+void claim_painted(Tree& tree) {
+  Buds& buds = tree.buds;
+  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
+  for (const Competitor& c : tree.competing) {
+    const auto b = static_cast<std::size_t>(c.bud);
+    buds.claimed[b] = Vec3{0.0f}, buds.claims[b] = 0;
+  }
+  std::size_t kept = 0;
+  for (const Vec3& marker : tree.markers) {
+    if (tree.occupancy.occupied(marker)) continue;  // consumed
+    tree.markers[kept++] = marker;
+    const std::int32_t winner = tree.competitors.nearest(marker, tree.reach_m, kNone);
+    if (winner < 0) continue;
+    const auto w = static_cast<std::size_t>(winner);
+    if (buds.order[w] > 0 && marker.y <= tree.input->clear_stem_m) continue;
+    buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
+    ++buds.claims[w];
+    tree.found_marker = true;
+  }
+  tree.work.markers_tested += tree.markers.size();
+  tree.markers.resize(kept);
+
+  if (tree.found_marker) return;
+  for (const Competitor& c : tree.competing) {
+    const auto b = static_cast<std::size_t>(c.bud);
+    if (buds.order[b] > 0 || buds.state[b] != BudState::terminal || buds.at[b].y >= tree.highest_marker_m) continue;
+    buds.claimed[b] = buds.direction[b], buds.claims[b] = 1;
+  }
+}
+
+}  // namespace bosquet::growth
