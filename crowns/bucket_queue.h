@@ -55,6 +55,11 @@ class BucketQueue {
     return present_[cursor_++];
   }
 
+  /// An entry that is popped soon, unless one is pushed before it, or null: to fetch its memory ahead.
+  const Entry* ahead(std::size_t entries) const {
+    return cursor_ + entries < present_.size() ? &present_[cursor_ + entries] : nullptr;
+  }
+
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kDigits = 256, kLevels = 8;

@@ -18,6 +18,8 @@ namespace {
 // Distances are known this far from the surface, in voxels; only the first half voxel is asked for.
 constexpr float kBand = 2.0f;
 constexpr float kMargin = 0.5f - 1e-3f;
+// A surface without thickness may run exactly between two voxels: both are taken, lest it have holes.
+constexpr float kSurfaceMargin = 0.5f + 1e-3f;
 // A surface of so many voxels is 12 km2 at 0.25 m: the unit is wrong.
 constexpr double kMostVoxels = 2e8, kFarthest = 1e9;
 
@@ -99,8 +101,9 @@ Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size, const 
       for (int z = low.z(); z <= high.z(); ++z)
         for (int x = low.x(); x <= high.x(); ++x) spans.push_back({{x, z}, low.y(), high.y() + 1});
     };
+    const float margin = warning.empty() ? kMargin : kSurfaceMargin;
     for (auto value = grid->tree().cbeginValueAll(); value; ++value)
-      if (*value < kMargin) take(value.getBoundingBox());
+      if (*value < margin) take(value.getBoundingBox());
   } catch (const std::exception& e) {
     return cannot_finish(fmt::format("OpenVDB could not voxelise it: {}", e.what()));
   }

@@ -20,6 +20,9 @@ constexpr double kLeastSlowness = 0x1p10, kMostSlowness = 0x1p46;
 // Units of the queue in the time that the fastest front takes for a column: a few entries each.
 constexpr int kUnitBits = 8;
 
+// Entries of the queue whose cells are fetched before their turn.
+constexpr std::size_t kAhead = 6;
+
 // Delay in columns from which a cell is said to lie in a shadow.
 constexpr double kShadow = 1.0;
 
@@ -48,6 +51,7 @@ class Layer {
   void run() {
     while (!queue_.empty()) {
       const BucketQueue::Entry next = queue_.pop();
+      if (const BucketQueue::Entry* soon = queue_.ahead(kAhead)) fetch_ahead(soon->cell);
       Cell& cell = cells_[next.cell];
       if (cell.state <= -2) {
         if (cell.tick != next.tick) continue;  // bettered since
@@ -90,6 +94,14 @@ class Layer {
     cell.delay = 0.0f;
     cell.state = f;
     queue_.push(cell.tick, front.root);
+  }
+
+  // On a large layer fronts advance everywhere at once, so a cell is seldom in the cache when its time comes.
+  void fetch_ahead(std::uint32_t cell) const {
+    const Cell* at = cells_.data() + cell;
+    __builtin_prefetch(at, 1);
+    if (cell >= kEdge) __builtin_prefetch(at - kEdge, 1);
+    if (cell + kEdge < beyond_) __builtin_prefetch(at + kEdge, 1);
   }
 
   void spread(std::uint32_t from, const Cell& settled) {
