@@ -34,13 +34,26 @@ GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::Cr
   input.seed = document.seed;
   input.key = tree.key;
 
-  growth::Skeleton skeleton = growth::grow(input, progress);
   GrownTree grown;
   grown.asymmetry = asymmetry;
-  if (progress && progress->cancelled()) return grown;
-  if (tree.trunk_diameter_m)
-    if (auto done = growth::constrain_trunk(skeleton, *tree.trunk_diameter_m); !done)
-      warning = fmt::format("tree {} ({}): {}", tree.id, species.name, done.error().message);
+  std::uint64_t key = 0;
+  if (options.skeletons) {
+    key = Hasher().add(growth::hash(input)).add(tree.trunk_diameter_m.value_or(0.0f)).digest();
+    grown.skeleton = options.skeletons->find(key);
+    grown.from_cache = grown.skeleton != nullptr;
+  }
+  if (!grown.skeleton) {
+    growth::Skeleton made = growth::grow(input, progress);
+    if (progress && progress->cancelled()) return grown;
+    if (tree.trunk_diameter_m) {
+      if (auto done = growth::constrain_trunk(made, *tree.trunk_diameter_m); !done)
+        warning = fmt::format("tree {} ({}): {}", tree.id, species.name, done.error().message);
+    }
+    grown.skeleton = std::make_shared<const growth::Skeleton>(std::move(made));
+    // One whose diameter cannot be had is grown again each time, with its warning.
+    if (options.skeletons && warning.empty()) options.skeletons->insert(key, grown.skeleton);
+  }
+  const growth::Skeleton& skeleton = *grown.skeleton;
 
   const float full = document.full_height_m(tree);
   const float today = growth::age_at_height(species.growth, full, input.max_height_m);
@@ -51,7 +64,6 @@ GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::Cr
     if (*options.year < today || input.max_height_m >= full) grown.age_years = *options.year;
   }
   grown.measures = growth::measure(skeleton, grown.season);
-  grown.skeleton = std::make_shared<const growth::Skeleton>(std::move(skeleton));
   return grown;
 }
 

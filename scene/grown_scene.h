@@ -18,15 +18,17 @@
 #include "growth/measure.h"
 #include "growth/skeleton.h"
 #include "scene/document.h"
+#include "scene/skeleton_cache.h"
 
 namespace bosquet::scene {
 
 struct GrowOptions {
-  bool regions = true;        ///< trees keep to their crown regions
-  bool asymmetry = true;      ///< trees lean away from their neighbours
-  bool light = true;          ///< neighbours' crowns shade (where regions are on and the document has it on)
-  float detail = 1.0f;        ///< internodes are this many times shorter
-  std::optional<float> year;  ///< show every tree at this age; missing: at its final height
+  bool regions = true;                 ///< trees keep to their crown regions
+  bool asymmetry = true;               ///< trees lean away from their neighbours
+  bool light = true;                   ///< neighbours' crowns shade (where regions are on and the document has it on)
+  float detail = 1.0f;                 ///< internodes are this many times shorter
+  std::optional<float> year;           ///< show every tree at this age; missing: at its final height
+  SkeletonCache* skeletons = nullptr;  ///< trees grown before; null: every tree is grown
 };
 
 struct GrownTree {
@@ -34,6 +36,7 @@ struct GrownTree {
   int season = -1;            ///< the last season shown; -1 all of them
   growth::Measures measures;  ///< at that season
   float age_years = 0;        ///< by the species' height curve
+  bool from_cache = false;    ///< it was not grown now
   Vec3 asymmetry{0.0f};
 };
 
