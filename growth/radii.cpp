@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "core/scalar.h"
@@ -102,6 +103,52 @@ Result<void> constrain_trunk(Skeleton& s, float diameter_m) {
   if (!n) return n.error();
   s.pipe_exponent = static_cast<float>(*n);
   s.radius = radii(s);
+  return {};
+}
+
+Result<void> constrain_widths(Skeleton& s, std::span<const GivenWidth> widths) {
+  // Part 0 stands on the ground, part k + 1 on the k-th given width.
+  constexpr std::size_t kGround = 0;
+  std::vector<std::size_t> part(s.size(), kGround);
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    assert(widths[k].internode < s.size() && part[widths[k].internode] == kGround);
+    part[widths[k].internode] = k + 1;
+  }
+  const auto is_cut = [&](std::size_t i) { return part[i] != kGround && widths[part[i] - 1].internode == i; };
+  const auto width_of = [&](std::size_t i) { return static_cast<double>(widths[part[i] - 1].diameter_m); };
+
+  // What meets at the foot of each part: the pipes of its own wood and the widths given above it.
+  std::vector<std::vector<Widths>> meeting(widths.size() + 1, {Widths{static_cast<double>(s.tip_diameter_m), 0.0}});
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const bool on_wood = s.parent[i] >= 0;
+    const std::size_t below = on_wood ? part[static_cast<std::size_t>(s.parent[i])] : kGround;
+    if (is_cut(i)) {
+      if (on_wood) meeting[below].push_back({width_of(i), 1.0});
+    } else {
+      part[i] = below;
+    }
+    meeting[part[i]][0].count += s.own_pipes(i);
+  }
+  std::vector<float> exponent(widths.size() + 1, s.pipe_exponent);
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const Result<double> n = solve_exponent(meeting[k + 1], static_cast<double>(widths[k].diameter_m));
+    if (!n) return Error{"internode " + std::to_string(widths[k].internode) + ": " + n.error().message};
+    exponent[k + 1] = static_cast<float>(*n);
+  }
+
+  // Down the tree, d^n in units of d_e^n with the exponent of each part.
+  std::vector<double> carried(s.size(), 0.0);
+  s.radius.resize(s.size());
+  for (std::size_t i = s.size(); i-- > 0;) {
+    carried[i] += s.own_pipes(i);
+    const float n = exponent[part[i]];
+    const float ratio =
+        is_cut(i) ? widths[part[i] - 1].diameter_m / s.tip_diameter_m : pow(static_cast<float>(carried[i]), 1.0f / n);
+    s.radius[i] = 0.5f * s.tip_diameter_m * ratio;
+    if (s.parent[i] < 0) continue;
+    const auto p = static_cast<std::size_t>(s.parent[i]);
+    carried[p] += part[p] == part[i] ? carried[i] : static_cast<double>(pow(ratio, exponent[part[p]]));
+  }
   return {};
 }
 

@@ -10,6 +10,7 @@
 // Errors    a width that no exponent gives: not wider than the wood it carries
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,16 @@ std::vector<float> radii(const Skeleton& skeleton, int season = -1);
 /// Makes the trunk `diameter_m` wide at 1.3 m (at the foot of a smaller tree) by solving the exponent, and sets all
 /// radii. With several stems it is the thickest one.
 Result<void> constrain_trunk(Skeleton& skeleton, float diameter_m);
+
+/// A width that an internode was given.
+struct GivenWidth {
+  std::size_t internode;
+  float diameter_m;
+};
+/// Sets all radii so that these internodes, each named once, have their widths. The given widths cut the tree: what
+/// stands on an internode with a width, up to the next ones and the tips, gets the exponent that leads from those to it;
+/// what stands below all of them keeps the tree's. Nothing changes when some width cannot be had.
+Result<void> constrain_widths(Skeleton& skeleton, std::span<const GivenWidth> widths);
 
 /// The internode that crosses 1.3 m on the thickest stem (the foot of a smaller tree); -1 for an empty skeleton.
 int breast_height_internode(const Skeleton& skeleton);
