@@ -58,6 +58,7 @@ void ShadowGrid::make_room(IVec3 c) {
   const std::size_t cells =
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
   sum_.assign(cells + kPastEnd, 0), waiting_.assign(cells, 0);
+  old_.reserve(sum_.capacity());  // the two change places each time
   const std::int32_t* from = old_.data();
   for (int j = 0; j < old_cells.y; ++j) {
     for (int k = 0; k < old_cells.z; ++k, from += old_cells.x) {
