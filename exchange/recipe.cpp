@@ -31,6 +31,7 @@ class Reader {
     if (auto table = root.table("space")) read_space(*table);
     if (auto table = root.table("asymmetry")) describe(recipe_.document.asymmetry, *table), table->finish();
     if (auto table = root.table("light")) describe(recipe_.document.light, *table), table->finish();
+    for (TomlTable& table : root.tables("obstacle")) read_obstacle(table);
     for (TomlTable& table : root.tables("camera")) read_camera(table);
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("export")) {
@@ -289,6 +290,29 @@ class Reader {
       if (table.has("layer_m")) table.error("layers", "give either layers or layer_m");
     }
     table.finish();
+  }
+
+  void read_obstacle(TomlTable& table) {
+    ObstacleRecipe obstacle;
+    obstacle.name = table.text("name").value_or(fmt::format("obstacle {}", recipe_.obstacles.size() + 1));
+    if (auto file = table.text("file")) obstacle.file = folder_ / *file;
+    if (auto ring = table.points("polygon")) {
+      if (ring->size() < 3) table.error("polygon", "a polygon needs at least three points");
+      obstacle.outline = std::move(*ring);
+    }
+    if (table.has("file") == table.has("polygon"))
+      table.error("", "an [[obstacle]] needs either file = \"house.glb\" or polygon = [[east, north], ...]");
+    if (auto at = table.numbers("at", 2)) obstacle.at = {static_cast<float>((*at)[0]), static_cast<float>((*at)[1])};
+    obstacle.rotation_deg = static_cast<float>(table.number("rotation_deg", -360, 360).value_or(0.0));
+    obstacle.scale = static_cast<float>(table.number("scale", 1e-4, 1e4).value_or(1.0));
+    obstacle.height_m = static_cast<float>(table.number("height_m", 0.1, 1000).value_or(8.0));
+    const std::string ending = obstacle.file.extension().string();
+    const bool mesh = ending == ".glb" || ending == ".gltf" || ending == ".obj";
+    for (const char* key : {"at", "rotation_deg", "scale"})
+      if (table.has(key) && !mesh) table.error(key, fmt::format("{} is for meshes (.glb, .gltf, .obj)", key));
+    if (mesh && table.has("height_m")) table.error("height_m", "a mesh has its own height; use scale");
+    table.finish();
+    recipe_.obstacles.push_back(std::move(obstacle));
   }
 
   void read_camera(TomlTable& table) {

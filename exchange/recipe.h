@@ -71,6 +71,16 @@ struct PlantingRecipe {
   std::size_t default_species = 0;
 };
 
+struct ObstacleRecipe {
+  std::string name;
+  std::filesystem::path file;  ///< a mesh, or outlines; empty: `outline`
+  std::vector<Vec2> outline;   ///< plan
+  Vec2 at{0.0f};               ///< of a mesh's origin, plan
+  float rotation_deg = 0.0f;   ///< counter-clockwise seen from above
+  float scale = 1.0f;
+  float height_m = 8.0f;  ///< of outlines that say none
+};
+
 struct CameraRecipe {
   std::string name;
   Vec3 eye{0.0f}, target{0.0f};  ///< east, north, metres above the ground there
@@ -85,6 +95,7 @@ struct Recipe {
   int layers = 0;  ///< of the crown space, when given in place of layer_m
   std::vector<distribution::Interaction> interactions;
   std::vector<PlantingRecipe> plantings;
+  std::vector<ObstacleRecipe> obstacles;
   std::vector<CameraRecipe> cameras;
 };
 

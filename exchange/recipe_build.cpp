@@ -8,7 +8,10 @@
 #include "distribution/inventory.h"
 #include "distribution/planting.h"
 #include "exchange/elevation.h"
+#include "exchange/footprints.h"
+#include "exchange/mesh_file.h"
 #include "exchange/recipe.h"
+#include "geometry/prism.h"
 #include "scene/species_names.h"
 
 namespace bosquet::exchange {
@@ -60,6 +63,60 @@ Result<terrain::Terrain> make_ground(const Recipe& recipe, scene::Georeference& 
   for (const auto& [name, area] : ground.exclusions) site = terrain::exclude(site, area);
   for (const PathArea& path : ground.paths) site = terrain::exclude_path(site, path.points, path.width_m);
   return site;
+}
+
+// Walls go down to the lowest ground at the outline, and so much farther; heights count from the mean of it.
+constexpr float kFoundation_m = 0.3f;
+
+scene::Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground) {
+  float lowest = ground.ground(outline.ring.front()), sum = 0;
+  for (Vec2 p : outline.ring) lowest = std::min(lowest, ground.ground(p)), sum += ground.ground(p);
+  scene::Obstacle out;
+  out.name = std::move(name);
+  out.low_y = lowest - kFoundation_m;
+  out.high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
+  out.mesh = std::make_shared<const TriangleMesh>(geometry::prism(outline, out.low_y, out.high_y));
+  out.outline = std::make_shared<const Polygon>(std::move(outline));
+  return out;
+}
+
+// A mesh of somebody else's, scaled, turned and set on the ground.
+TriangleMesh placed(TriangleMesh mesh, const ObstacleRecipe& at, const terrain::Terrain& ground) {
+  const SinCos turn = sin_cos(radians(at.rotation_deg));
+  const auto turned = [&](const Vec3& v) {
+    return Vec3{turn.cos * v.x + turn.sin * v.z, v.y, turn.cos * v.z - turn.sin * v.x};
+  };
+  const Vec3 foot = to_world(at.at, ground.ground(at.at));
+  for (Vec3& p : mesh.positions) p = foot + turned(at.scale * p);
+  for (Vec3& n : mesh.normals) n = turned(n);
+  return mesh;
+}
+
+Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std::vector<std::string>& warnings) {
+  const terrain::Terrain& ground = *document.terrain;
+  std::vector<scene::Obstacle>& all = document.obstacles;
+  for (const ObstacleRecipe& o : recipe.obstacles) {
+    const std::string ending = o.file.extension().string();
+    if (o.file.empty()) {
+      all.push_back(extruded(o.name, {o.outline, {}}, o.height_m, ground));
+    } else if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
+      auto mesh = read_mesh(o.file);
+      if (!mesh) return Error{fmt::format("obstacle '{}': {}", o.name, mesh.error().message)};
+      scene::Obstacle obstacle;
+      obstacle.name = o.name;
+      obstacle.mesh = std::make_shared<const TriangleMesh>(placed(std::move(*mesh), o, ground));
+      all.push_back(std::move(obstacle));
+    } else {
+      auto outlines = read_footprints(o.file, document.place.south_west);
+      if (!outlines) return Error{fmt::format("obstacle '{}': {}", o.name, outlines.error().message)};
+      for (const std::string& note : outlines->notes) warnings.push_back(fmt::format("{}: {}", o.file.string(), note));
+      for (Footprint& f : outlines->all)
+        all.push_back(extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(o.height_m), ground));
+    }
+    if (all.back().mesh->empty()) return Error{fmt::format("obstacle '{}': its outline has no area", all.back().name)};
+  }
+  for (std::size_t n = 0; n < all.size(); ++n) all[n].id = -1 - static_cast<std::int32_t>(n);
+  return {};
 }
 
 std::vector<distribution::Species> planting_species(const scene::Document& document) {
@@ -233,6 +290,8 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
   auto ground = make_ground(recipe, document.place, built.warnings);
   if (!ground) return ground.error();
   document.terrain = std::make_shared<const terrain::Terrain>(std::move(*ground));
+  if (auto done = make_obstacles(recipe, document, built.warnings); !done)
+    return Error{fmt::format("{}: {}", recipe.file.string(), done.error().message)};
   built.seconds["terrain"] = watch.restart();
 
   if (progress) progress->begin("planting", 0);

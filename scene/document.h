@@ -18,6 +18,7 @@
 #include "crowns/canopy_light.h"
 #include "crowns/crown_space.h"
 #include "scene/model.h"
+#include "scene/obstacle.h"
 #include "scene/species.h"
 #include "terrain/terrain.h"
 
@@ -48,6 +49,7 @@ struct Document {
   std::shared_ptr<const terrain::Terrain> terrain;
   std::vector<std::shared_ptr<const Species>> species;
   std::shared_ptr<const std::vector<Tree>> trees;
+  std::vector<Obstacle> obstacles;
   crowns::SpaceOptions space;
   crowns::AsymmetryOptions asymmetry;
   crowns::LightOptions light;

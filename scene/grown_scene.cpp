@@ -10,6 +10,7 @@
 #include "growth/digest.h"
 #include "growth/grow.h"
 #include "growth/radii.h"
+#include "scene/standing.h"
 
 namespace bosquet::scene {
 namespace {
@@ -100,10 +101,14 @@ Result<GrownScene> grow_scene(const Document& document, const GrowOptions& optio
   std::vector<Vec3> asymmetry(trees.size(), Vec3(0.0f));
   if (options.regions || options.asymmetry) {
     if (progress) progress->begin("crown regions", 0);
-    auto space = crowns::divide_space(claimants(document), *document.terrain, document.space, progress);
+    auto there = standing(document, scene.warnings);
+    if (!there) return there.error();
+    auto space = crowns::divide_space(claimants(document), *there, *document.terrain, document.space, progress);
     if (!space) return space.error();
     scene.space = std::move(*space);
-    if (options.asymmetry) asymmetry = crowns::neighbourhood_asymmetry(scene.space, document.asymmetry);
+    if (options.asymmetry) 
+      asymmetry = crowns::neighbourhood_asymmetry(scene.space, document.asymmetry, document.terrain.get());
+    for (std::string& warning : space_warnings(scene.space, document)) scene.warnings.push_back(std::move(warning));
   }
   scene.seconds["crowns"] = watch.restart();
   if (progress && progress->cancelled()) return cancelled;

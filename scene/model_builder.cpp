@@ -25,6 +25,8 @@ constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
 // Grass thins out under a crown, but a single tree does not bare the ground; where crowns overlap their shade adds up.
 constexpr float kMostShade = 0.5f;
 constexpr std::size_t kMostGroundTriangles = 200'000;
+// Obstacles are volumes in a plain light render.
+constexpr Vec3 kObstacleGrey{0.62f, 0.60f, 0.56f};
 // Seed of the textures: a species looks the same in every document.
 constexpr std::uint64_t kTextureSeed = 1;
 // The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.
@@ -43,6 +45,7 @@ enum : std::size_t { kBark, kLeaf, kMass, kOfSpecies };
 std::size_t material_of(std::size_t species, std::size_t part) { return kOfSpecies * species + part; }
 std::size_t ground_material(const Document& document) { return kOfSpecies * document.species.size(); }
 std::size_t water_material(const Document& document) { return ground_material(document) + 1; }
+std::size_t obstacle_material(const Document& document) { return ground_material(document) + 2; }
 
 Material leaf_material(std::string name, const Species& species, geometry::LeafAtlas atlas) {
   Material material;
@@ -59,7 +62,7 @@ Material leaf_material(std::string name, const Species& species, geometry::LeafA
 
 std::vector<Material> make_materials(const Document& document, geometry::Season season) {
   const std::size_t n = document.species.size();
-  std::vector<Material> materials(kOfSpecies * n + 2);
+  std::vector<Material> materials(kOfSpecies * n + 3);
   std::vector<bool> used(n, false);
   for (const Tree& tree : *document.trees) used[tree.species] = true;
   parallel_for(2 * n + 1, [&](std::size_t job) {
@@ -96,6 +99,11 @@ std::vector<Material> make_materials(const Document& document, geometry::Season 
   water.surface = Surface::water;
   water.base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
   water.roughness = 0.08f;
+  Material& obstacle = materials[obstacle_material(document)];
+  obstacle.name = "obstacle";
+  obstacle.surface = Surface::obstacle;
+  obstacle.base_factor = Vec4(kObstacleGrey, 1.0f);
+  obstacle.double_sided = true;  // meshes of others face any way
   return materials;
 }
 
@@ -232,6 +240,14 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   if (TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options); !water.empty()) {
     built.triangles += water.triangles();
     model.nodes.push_back(mesh_node("water", std::move(water), water_material(document)));
+  }
+
+  for (const Obstacle& obstacle : document.obstacles) {
+    Node node;
+    node.name = obstacle.name;
+    node.parts.push_back({obstacle.mesh, obstacle_material(document)});
+    built.triangles += obstacle.mesh->triangles();
+    model.nodes.push_back(std::move(node));
   }
 
   // What each tree is drawn with, and what its full mesh needs.

@@ -1,0 +1,68 @@
+#include "scene/standing.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace bosquet::scene {
+namespace {
+
+// What stands farther from the site cannot touch a crown of it.
+constexpr float kMargin_m = 64.0f;
+// A list this long says as much as a longer one.
+constexpr std::size_t kListed = 8;
+
+std::string name_of(const Document& document, std::int32_t id) {
+  for (const Obstacle& o : document.obstacles)
+    if (o.id == id) return fmt::format("obstacle '{}'", o.name);
+  return fmt::format("hero tree {}", id);
+}
+
+}  // namespace
+
+Result<crowns::Standing> standing(const Document& document, std::vector<std::string>& warnings) {
+  crowns::Standing out;
+  const crowns::VoxelSize size = document.space.voxel();
+  const Box2 near{Vec2(-kMargin_m), document.terrain->size_m() + kMargin_m};
+  for (const Obstacle& o : document.obstacles) {
+    crowns::ObstacleVolume volume;
+    if (o.outline) {
+      volume = crowns::extrude(*o.outline, o.low_y, o.high_y, size, near);
+    } else {
+      auto voxels = crowns::voxelise(*o.mesh, size, near);
+      if (!voxels) return Error{fmt::format("obstacle '{}': {}", o.name, voxels.error().message), voxels.error().kind};
+      volume = std::move(*voxels);
+    }
+    if (!volume.warning.empty()) warnings.push_back(fmt::format("obstacle '{}': {}", o.name, volume.warning));
+    out.obstacles.push_back({o.id, o.name, std::make_shared<const crowns::ObstacleVolume>(std::move(volume))});
+  }
+  return out;
+}
+
+std::vector<std::string> space_warnings(const crowns::CrownSpace& space, const Document& document) {
+  using Kind = crowns::SpaceProblem::Kind;
+  std::vector<std::string> out;
+  std::map<std::int32_t, std::vector<std::int32_t>> in_obstacle;
+  std::size_t in_trunk = 0;
+  for (const crowns::SpaceProblem& p : crowns::problems(space, document.terrain->size_m())) {
+    if (p.kind == Kind::base_in_obstacle) {
+      in_obstacle[p.other].push_back(p.id);
+    } else if (p.kind == Kind::base_in_trunk) {
+      if (++in_trunk <= kListed) out.push_back(fmt::format("tree {} stands in the trunk of tree {}", p.id, p.other));
+    } else {
+      out.push_back(fmt::format("{} lies off the site", name_of(document, p.id)));
+    }
+  }
+  if (in_trunk > kListed) out.push_back(fmt::format("and {} more trees stand in others' trunks", in_trunk - kListed));
+  for (const auto& [obstacle, trees] : in_obstacle) {
+    std::string ids;
+    for (std::size_t n = 0; n < std::min(kListed, trees.size()); ++n)
+      ids += fmt::format("{}{}", n ? ", " : "", trees[n]);
+    if (trees.size() > kListed) ids += fmt::format(" and {} more", trees.size() - kListed);
+    out.push_back(fmt::format("{} {} in {}: no room but the column over the base", trees.size() == 1 ? "tree" : "trees",
+                              ids, name_of(document, obstacle)));
+  }
+  return out;
+}
+
+}  // namespace bosquet::scene
