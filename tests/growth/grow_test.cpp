@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "core/parallel.h"
 #include "core/scalar.h"
@@ -106,29 +111,99 @@ TEST(Grow, ATreeDoesNotDependOnTheOneGrownBefore) {
   EXPECT_EQ(digest(grow(sample_input(p, 5))), first);
 }
 
-TEST(Grow, TheHashSeesWhateverChangesTheTree) {
+/// Changes the n-th described number, choice or switch, one step within its range, and says its name.
+struct Nudge {
+  int n = -1;  ///< none
+  int at = 0;
+  std::string name{};
+  bool now(std::string_view key) {
+    if (at++ != n) return false;
+    name = key;
+    return true;
+  }
+  void operator()(const Real& info, float& v) {
+    if (v == std::numeric_limits<float>::lowest()) v = static_cast<float>(info.low);  // a key that was not given
+    const float step = 0.01f * static_cast<float>(info.high - info.low);
+    if (now(info.name)) v = v + step <= static_cast<float>(info.high) ? v + step : v - step;
+  }
+  void operator()(const Whole& info, int& v) {
+    if (v == std::numeric_limits<int>::lowest()) v = info.low;
+    if (now(info.name)) v = v < info.high ? v + 1 : v - 1;
+  }
+  void operator()(const Switch& info, bool& v) {
+    if (now(info.name)) v = !v;
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const Choice& info, Enum& v) {
+    if (now(info.name)) v = static_cast<Enum>((static_cast<int>(v) + 1) % static_cast<int>(info.names.size()));
+  }
+  template <class Item>
+  void operator()(const Tables&, std::vector<Item>& items) {
+    for (Item& item : items) describe(item, *this);
+  }
+};
+
+TEST(Grow, TheHashSeesEveryParameterAlsoOfPhasesAndOrders) {
+  Parameters base = sample_parameters();
+  base.phases.resize(1), base.orders.resize(1);
+  Nudge none;
+  describe(base, none);  // gives every key of the phase and the order
+  const std::uint64_t before = hash(sample_input(base, 5));
+  std::set<std::uint64_t> hashes{before};
+  for (int n = 0; n < none.at; ++n) {
+    Parameters p = base;
+    Nudge nudge{.n = n};
+    describe(p, nudge);
+    EXPECT_TRUE(hashes.insert(hash(sample_input(p, 5))).second) << nudge.name;
+  }
+  EXPECT_GT(none.at, 60);
+  // A key that is given as it would be anyway is another input, though the tree may be the same.
+  Parameters ungiven = base;
+  ungiven.orders[0].change.straightness.reset();
+  EXPECT_NE(hash(sample_input(ungiven, 5)), before);
+}
+
+TEST(Grow, TheHashSeesEveryInputAndNothingElse) {
   const Parameters p = sample_parameters();
   std::set<std::uint64_t> hashes;
   std::size_t inputs = 0;
   const auto add = [&](const GrowthInput& input) { hashes.insert(hash(input)), ++inputs; };
   GrowthInput input = sample_input(p, 5);
   add(input);
+  input.max_height_m += 0.5f, add(input);
   input.seed = 6, add(input);
   input.key = 7, add(input);
   input.detail = 2.0f, add(input);
   input.clear_stem_m = 1.0f, add(input);
-  input.asymmetry = {0.5f, 0.0f, 0.0f}, add(input);
-  const auto region = region_where(3.0f, 12.0f, [](const Vec3& v) { return v.x > 0.0f; });
+  for (const Vec3& v : {Vec3{0.5f, 0.0f, 0.0f}, Vec3{0.0f, 0.0f, 0.5f}}) input.asymmetry = v, add(input);
+  auto region = region_where(3.0f, 12.0f, [](const Vec3& v) { return v.x > 0.0f; });
   input.region = &region, add(input);
+  region.claim({0, 3, 0}), add(input);
+  region.low.x += 0.25f, add(input);
+  region.voxel_m = 0.5f, add(input);
+  region.layer_m = 0.5f, add(input);
   Transmittance light;
   light.cells = {1, 1, 1}, light.level = {3};
   input.light = &light, add(input);
-  Parameters q = p;
-  input.parameters = &q;
-  q.tip_diameter_m = 0.01f, add(input);
-  q.orders.push_back({1, {}}), q.orders[0].change.straightness = 0.4f, add(input);
-  q.orders[0].change = {}, q.orders[0].change.space = 0.4f, add(input);
+  light.level[0] = 4, add(input);
+  light.low.y = 1.0f, add(input);
+  light.cell_m = 2.0f, add(input);
+  const std::vector<Vec3> markers{{0, 1, 0}, {0, 2, 0}};
+  input.markers = markers, add(input);
+  input.markers = std::span(markers).first(1), add(input);
   EXPECT_EQ(hashes.size(), inputs);
+
+  // Where the parts lie in memory, and what was grown before, is nothing to it.
+  const Parameters same_parameters = p;
+  const crowns::CrownRegion same_region = region;
+  const Transmittance same_light = light;
+  const std::vector<Vec3> same_markers(markers.begin(), markers.begin() + 1);
+  GrowthInput same = input;
+  same.parameters = &same_parameters, same.region = &same_region, same.light = &same_light;
+  same.markers = same_markers;
+  grow(sample_input(p, 1, 4.0f));
+  EXPECT_EQ(hash(same), hash(input));
 }
 
 TEST(Grow, InAShaftBetweenNeighboursATreeGrowsUpToItsHeightAndStaysNearlyUpright) {
@@ -170,20 +245,6 @@ TEST(Grow, InternodesEndInTheirRegionOrJustOutside) {
   EXPECT_LE(outside, static_cast<int>(s.size()) / 100);
 }
 
-TEST(Grow, WithoutTheSpaceOnOneSideTheCrownMovesToTheOther) {
-  const Parameters p = sample_parameters();
-  const auto half = region_where(8.0f, 13.0f, [](const Vec3& v) { return v.x > -0.5f; });
-  const auto whole = region_where(8.0f, 13.0f, [](const Vec3&) { return true; });
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    GrowthInput input = sample_input(p, seed);
-    input.region = &half;
-    const Measures m = measure(grow(input));
-    EXPECT_GT(m.crown_centroid.x, 0.15f * m.crown_diameter_m);
-    input.region = &whole;
-    EXPECT_LT(std::abs(measure(grow(input)).crown_centroid.x), 0.1f * m.crown_diameter_m);
-  }
-}
-
 TEST(Grow, NothingGrowsUndergroundNorOnAClearStem) {
   Parameters p = sample_parameters();
   p.set_point_angle_deg = 180.0f, p.max_shoot_length = 6;
@@ -196,46 +257,136 @@ TEST(Grow, NothingGrowsUndergroundNorOnAClearStem) {
   for (std::size_t i = 0; i < s.size(); ++i) EXPECT_TRUE(s.order[i] == 0 || s.distal[i].y >= 3.0f);
 }
 
-TEST(Grow, InTheShadeOfOthersTheCrownBaseIsHigher) {
-  Parameters p = sample_parameters();
-  p.shedding_threshold = 0.1f, p.light_sensitivity = 2.0f;
-  // A closed stand: exp(-0.5 LAI (1 - y/h)) with a leaf area index of 6.
-  Transmittance stand;
-  stand.low = {-20.0f, 0.0f, -20.0f}, stand.cells = {40, 14, 40};
-  for (int y = 0; y < 14; ++y) {
-    const float open = std::exp(-3.0f * std::max(0.0f, 1.0f - (static_cast<float>(y) + 0.5f) / 12.0f));
-    stand.level.insert(stand.level.end(), 1600,
-                       static_cast<std::uint8_t>(std::clamp(open * 16.0f - 1.0f, 0.0f, 15.0f)));
-  }
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    GrowthInput input = sample_input(p, seed);
-    const Measures open = measure(grow(input));
-    input.light = &stand;
-    const Measures closed = measure(grow(input));
-    EXPECT_GT(closed.crown_base_m, 1.5f * open.crown_base_m);
-    EXPECT_LT(closed.trunk_diameter_m, open.trunk_diameter_m);
+TEST(Grow, APlanarTreeStaysInItsPlaneHoweverItsBudsStand) {
+  for (const Phyllotaxis phyllotaxis :
+       {Phyllotaxis::spiral, Phyllotaxis::distichous, Phyllotaxis::decussate, Phyllotaxis::whorled}) {
+    Parameters p = sample_parameters();
+    p.planar = true, p.phyllotaxis = phyllotaxis, p.deflection_angle_deg = 10.0f;
+    const GrowthInput input = sample_input(p, 2);
+    Tree tree;
+    plant(tree, input);
+    while (!tree.finished) grow_season(tree);
+    ASSERT_GT(tree.wood.size(), 200u);
+    float left = 0.0f, right = 0.0f;
+    for (const Vec3& end : tree.wood.distal) {
+      EXPECT_EQ(end.z, 0.0f);
+      left = std::min(left, end.x), right = std::max(right, end.x);
+    }
+    EXPECT_LT(left, -1.0f);
+    EXPECT_GT(right, 1.0f);
+    for (const Vec3& direction : tree.buds.direction) EXPECT_EQ(direction.z, 0.0f);
   }
 }
 
-TEST(Grow, APlanarTreeStaysInItsPlane) {
-  Parameters p = sample_parameters();
-  p.planar = true;
-  const Skeleton s = grow(sample_input(p, 2));
-  ASSERT_GT(s.size(), 50u);
-  float left = 0.0f, right = 0.0f;
-  for (const Vec3& end : s.distal) {
-    EXPECT_EQ(end.z, 0.0f);
-    left = std::min(left, end.x), right = std::max(right, end.x);
+/// Lateral buds as they were made, node by node along the trunk: unit vectors across it.
+std::vector<std::vector<Vec3>> trunk_nodes(const Parameters& p) {
+  const GrowthInput input = sample_input(p, 4);
+  Tree tree;
+  plant(tree, input);
+  std::vector<std::vector<Vec3>> nodes;
+  std::size_t seen = 0;
+  while (!tree.finished) {
+    grow_season(tree);
+    for (std::size_t b = seen; b < tree.buds.size(); ++b) {
+      if (tree.buds.carrier[b] < 0) continue;
+      const auto carrier = static_cast<std::size_t>(tree.buds.carrier[b]);
+      if (tree.wood.order[carrier] != 0) continue;
+      const Vec3 h = tree.internodes.heading[carrier];
+      if (static_cast<std::size_t>(tree.internodes.first_bud[carrier]) == b) nodes.emplace_back();
+      nodes.back().push_back(glm::normalize(tree.buds.direction[b] - glm::dot(tree.buds.direction[b], h) * h));
+    }
+    seen = tree.buds.size();
   }
-  EXPECT_LT(left, -1.0f);
-  EXPECT_GT(right, 1.0f);
+  return nodes;
 }
 
-TEST(Grow, SeveralStemsRiseFromOneBase) {
+float angle_deg(const Vec3& a, const Vec3& b) { return degrees(std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f))); }
+
+/// A trunk as straight as can be, on which azimuths are easy to tell.
+Parameters straight_trunk() {
   Parameters p = sample_parameters();
-  p.stems = 5;
-  const Skeleton s = grow(sample_input(p, 2, 5.0f));
-  EXPECT_EQ(std::count(s.parent.begin(), s.parent.end(), -1), 5);
+  p.straightness = 0.97f, p.tropism = 0.03f, p.space = 0.0f, p.apical_dominance = 0.54f;
+  return p;
+}
+
+TEST(Phyllotaxis, BudsOfASpiralTurnByTheAngleGiven) {
+  Parameters p = straight_trunk();
+  p.phyllotactic_angle_deg = 100.0f;
+  const auto nodes = trunk_nodes(p);
+  ASSERT_GT(nodes.size(), 20u);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    ASSERT_EQ(nodes[i].size(), 1u);
+    EXPECT_NEAR(angle_deg(nodes[i][0], nodes[i + 1][0]), 100.0f, 3.0f) << i;
+  }
+}
+
+TEST(Phyllotaxis, DistichousBudsStandOnAlternatingSides) {
+  Parameters p = straight_trunk();
+  p.phyllotaxis = Phyllotaxis::distichous;
+  const auto nodes = trunk_nodes(p);
+  ASSERT_GT(nodes.size(), 20u);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    ASSERT_EQ(nodes[i].size(), 1u);
+    EXPECT_NEAR(angle_deg(nodes[i][0], nodes[i + 1][0]), 180.0f, 3.0f) << i;
+  }
+}
+
+TEST(Phyllotaxis, DecussateBudsStandOppositeAndPairsCross) {
+  Parameters p = straight_trunk();
+  p.phyllotaxis = Phyllotaxis::decussate;
+  const auto nodes = trunk_nodes(p);
+  ASSERT_GT(nodes.size(), 20u);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    ASSERT_EQ(nodes[i].size(), 2u);
+    EXPECT_NEAR(angle_deg(nodes[i][0], nodes[i][1]), 180.0f, 0.1f) << i;
+    EXPECT_NEAR(angle_deg(nodes[i][0], nodes[i + 1][0]), 90.0f, 3.0f) << i;
+  }
+}
+
+TEST(Phyllotaxis, AWhorlStandsInTheGapsOfTheOneBelow) {
+  for (const int whorl : {3, 5}) {
+    Parameters p = straight_trunk();
+    p.phyllotaxis = Phyllotaxis::whorled, p.whorl = whorl;
+    const auto nodes = trunk_nodes(p);
+    const float gap = 360.0f / static_cast<float>(whorl);
+    ASSERT_GT(nodes.size(), 20u);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      ASSERT_EQ(nodes[i].size(), static_cast<std::size_t>(whorl));
+      for (int k = 0; k < whorl; ++k) {
+        const auto a = static_cast<std::size_t>(k), b = static_cast<std::size_t>((k + 1) % whorl);
+        EXPECT_NEAR(angle_deg(nodes[i][a], nodes[i][b]), gap, 0.1f);
+        float nearest_above = 360.0f;
+        for (const Vec3& above : nodes[i + 1]) nearest_above = std::min(nearest_above, angle_deg(nodes[i][a], above));
+        EXPECT_NEAR(nearest_above, 0.5f * gap, 3.0f) << i;
+      }
+    }
+  }
+}
+
+TEST(Grow, SeveralStemsRiseFromOneBaseLeaningApartEvenly) {
+  Parameters p = sample_parameters();
+  p.stems = 5, p.stem_spread_deg = 30.0f;
+  const GrowthInput input = sample_input(p, 2, 5.0f);
+  Tree tree;
+  plant(tree, input);
+  const std::vector<Vec3> ways = tree.buds.direction;
+  ASSERT_EQ(ways.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const float lean = degrees(std::acos(ways[i].y));
+    EXPECT_GE(lean, 0.59f * p.stem_spread_deg);
+    EXPECT_LE(lean, 1.01f * p.stem_spread_deg);
+    const auto level = [](const Vec3& v) { return glm::normalize(Vec3{v.x, 0.0f, v.z}); };
+    EXPECT_NEAR(degrees(std::acos(glm::dot(level(ways[i]), level(ways[(i + 1) % 5])))), 72.0f, 0.1f);
+  }
+  while (!tree.finished) grow_season(tree);
+  const Skeleton& s = tree.wood;
+  std::set<std::uint32_t> axes;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.parent[i] >= 0) continue;
+    EXPECT_EQ(s.order[i], 0);
+    axes.insert(s.axis[i]);
+  }
+  EXPECT_EQ(axes.size(), 5u) << "each its own axis";
 }
 
 TEST(Grow, WhorlsStandAtShootEndsOnly) {

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "core/scalar.h"
+#include "growth/age.h"
 #include "growth/grow.h"
 #include "growth/measure.h"
 #include "growth/tree.h"
@@ -230,6 +231,73 @@ TEST(GrowthClaims, AsymmetryTiltsTheTrunkAlongItself) {
     EXPECT_GT(difference_in_errors(before, lean), 2.0) << "V = " << v;
     before = lean;
   }
+}
+
+TEST(GrowthClaims, WithoutTheSpaceOnOneSideTheCrownMovesToTheOther) {
+  const Parameters p = sample_parameters();
+  crowns::CrownRegion half;
+  half.voxel_m = half.layer_m = 0.5f;
+  half.low = {-0.5f, 0.0f, -12.0f}, half.cells = {25, 28, 48};
+  half.bits.assign((static_cast<std::size_t>(25 * 28 * 48) + 63) / 64, ~std::uint64_t{0});
+  Sample bounded, free;  // centroid east of the base, in crown widths
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    Measures m = measure(grow(input));
+    free.add(m.crown_centroid.x / m.crown_diameter_m);
+    input.region = &half;
+    m = measure(grow(input));
+    bounded.add(m.crown_centroid.x / m.crown_diameter_m);
+  }
+  EXPECT_LT(std::abs(free.mean()), 3.0 * free.standard_error()) << "no side without a reason";
+  EXPECT_GT(bounded.mean(), 0.15);
+  EXPECT_GT(difference_in_errors(free, bounded), 3.0);
+}
+
+TEST(GrowthClaims, InAClosedStandTheCrownBaseRisesAndTheTrunkIsThinner) {
+  // The light that a stand of leaf area index 6 lets through down to y: exp(-LAI / 2 * (1 - y / h)).
+  Parameters p = sample_parameters();
+  p.shedding_threshold = 0.1f, p.light_sensitivity = 2.0f;
+  const auto stand_of = [](float leaf_area_index) {
+    Transmittance light;
+    light.low = {-20.0f, 0.0f, -20.0f}, light.cells = {40, 14, 40};
+    for (int y = 0; y < 14; ++y) {
+      const float depth = std::max(0.0f, 1.0f - (static_cast<float>(y) + 0.5f) / 12.0f);
+      const float open = std::exp(-0.5f * leaf_area_index * depth);
+      light.level.insert(light.level.end(), 1600,
+                         static_cast<std::uint8_t>(std::clamp(open * 16.0f - 0.5f, 0.0f, 15.0f)));
+    }
+    return light;
+  };
+  std::array<Sample, 3> base, trunk;
+  const std::array<float, 3> indices{0.0f, 3.0f, 6.0f};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Transmittance light = stand_of(indices[k]);
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      GrowthInput input = sample_input(p, seed);
+      input.light = &light;
+      const Measures m = measure(grow(input));
+      base[k].add(m.crown_base_m / m.height_m), trunk[k].add(m.trunk_diameter_m);
+    }
+  }
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_GT(difference_in_errors(base[k - 1], base[k]), 3.0) << "leaf area index " << indices[k];
+    EXPECT_LT(difference_in_errors(trunk[k - 1], trunk[k]), -3.0) << "leaf area index " << indices[k];
+  }
+  EXPECT_GT(base[2].mean(), 1.5 * base[0].mean());
+}
+
+TEST(GrowthClaims, AShortYouthMakesYoungTreesWiderForTheirHeight) {
+  Sample width[2];
+  for (int k = 0; k < 2; ++k) {
+    Parameters p = sample_parameters();
+    p.max_shoot_length = 6, p.apical_dominance = 0.52f, p.youth = k ? 0.3f : 0.0f;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      const Skeleton s = grow(sample_input(p, seed));
+      const Measures young = measure(s, season_at_height(s, 2.4f));
+      width[k].add(young.crown_diameter_m / young.height_m);
+    }
+  }
+  EXPECT_GT(difference_in_errors(width[0], width[1]), 3.0);
 }
 
 }  // namespace
