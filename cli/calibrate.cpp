@@ -107,9 +107,11 @@ void print_number(std::string_view key, const std::string& measured, float in_fi
   fmt::print("  {:<26} {:>7}   file {:>6g}", key, measured, in_file);
 }
 
-// True when every band is kept.
-bool print_report(const Species& species, const Calibration& c, const scene::CalibrationOptions& options,
-                  double seconds) {
+// Whether every band is kept; unknown without rows to compare with.
+enum class Outcome { passes, fails, unknown };
+
+Outcome print_report(const Species& species, const Calibration& c, const scene::CalibrationOptions& options,
+                     double seconds) {
   fmt::print("{} ({}): {} trees standing alone, {:.0f} ms each, {:.1f} s\n", species.name, species.botanical_name,
              options.trees, c.milliseconds, seconds);
   fmt::print("{:>5} {:^20}{:^20}{:^20}{:>5} {:>5} {:>10} {:>5} {:>8} {:>6}\n", "", "height m", "crown m", "trunk cm",
@@ -153,7 +155,8 @@ bool print_report(const Species& species, const Calibration& c, const scene::Cal
   else if (!species.sizes.empty())
     fmt::print("  PASS\n");
   fmt::print("\n");
-  return verdict.failed.empty();
+  if (!verdict.failed.empty()) return Outcome::fails;
+  return species.sizes.empty() ? Outcome::unknown : Outcome::passes;
 }
 
 Result<void> write_calibrated(const SpeciesSource& source, const Calibration& c, const std::filesystem::path& target) {
@@ -170,7 +173,7 @@ Result<void> write_calibrated(const SpeciesSource& source, const Calibration& c,
   return {};
 }
 
-Result<void> calibrate_one(const std::string& name, const Options& options, Progress& progress, bool& passes,
+Result<void> calibrate_one(const std::string& name, const Options& options, Progress& progress, Outcome& outcome,
                            const std::filesystem::path& target) {
   auto source = species_source(name);
   if (!source) return source.error();
@@ -178,7 +181,7 @@ Result<void> calibrate_one(const std::string& name, const Options& options, Prog
   Stopwatch watch;
   auto calibration = scene::calibrate(source->species, how, &progress);
   if (!calibration) return calibration.error();
-  passes = print_report(source->species, *calibration, how, watch.seconds());
+  outcome = print_report(source->species, *calibration, how, watch.seconds());
   std::fflush(stdout);
   return target.empty() ? Result<void>() : write_calibrated(*source, *calibration, target);
 }
@@ -196,21 +199,26 @@ Result<void> run_calibrate(const Options& options) {
 
   Progress progress;
   ProgressDisplay display(progress, true);
-  std::vector<std::string> failed;
+  std::vector<std::string> failed, unknown;
   Result<void> done;
   run_with_threads(options.threads, [&] {
     for (const std::string& name : names) {
-      bool passes = true;
+      Outcome outcome = Outcome::unknown;
       const std::string stem = std::filesystem::path(name).stem();
-      done = calibrate_one(name, options, progress, passes, folder ? output / (stem + ".toml") : output);
+      done = calibrate_one(name, options, progress, outcome, folder ? output / (stem + ".toml") : output);
       if (!done) return;
-      if (!passes) failed.push_back(stem);
+      if (outcome == Outcome::fails) failed.push_back(stem);
+      if (outcome == Outcome::unknown) unknown.push_back(stem);
     }
   });
   if (!done) return done;
-  if (names.size() > 1)
-    fmt::print("{} of {} species pass{}{}\n", names.size() - failed.size(), names.size(),
-               failed.empty() ? "" : "; not: ", fmt::join(failed, ", "));
+  if (names.size() > 1) {
+    const std::size_t passing = names.size() - failed.size() - unknown.size();
+    fmt::print("{} of {} species pass", passing, names.size());
+    if (!failed.empty()) fmt::print("; not: {}", fmt::join(failed, ", "));
+    if (!unknown.empty()) fmt::print("; without [[size]] rows: {}", fmt::join(unknown, ", "));
+    fmt::print("\n");
+  }
   return {};
 }
 

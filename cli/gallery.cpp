@@ -21,10 +21,14 @@ namespace bosquet::cli {
 namespace {
 
 constexpr std::size_t kRowTriangles = 6'000'000;
-constexpr float kLeafMargin_m = 0.4f;                             // beyond the wood, on each side
-constexpr float kGapOfHeight = 0.04f;                             // between trees, of the row's tallest
-constexpr float kFigureRoom_m = 1.4f;                             // beside the first tree
-constexpr double kMostRowOfWidth = 0.4, kLeastRowOfWidth = 0.06;  // height of rows, of the sheet's width
+constexpr float kLeafMargin_m = 0.4f;  // beyond the wood, on each side
+constexpr float kMiddle_m = 10.0f;     // of the strip of ground that a row stands on
+constexpr float kFigureRoom_m = 1.4f;  // beside the first tree
+// In hundredths of the sheet's width.
+constexpr double kMostRow = 40.0, kLeastRow = 6.0;  // height of rows
+constexpr double kLeastGap = 0.8, kMostGap = 6.0;   // between ages
+constexpr double kLeastPairGap = 0.4;               // between a tree with leaves and without
+constexpr double kLeastPair = 5.0;                  // room of an age, for its label
 constexpr Vec3 kInk{0.13f}, kGrey{0.42f}, kGridColour{0.87f}, kGroundColour{0.35f};
 constexpr Vec4 kFigureColour{0.035f, 0.035f, 0.04f, 1.0f};
 
@@ -40,12 +44,6 @@ struct Portrait {
   };
   std::vector<Stage> stages;
   float height_m = 0;
-
-  float width_m() const {
-    float sum = 0.0f;
-    for (const Stage& s : stages) sum += 2.0f * (s.east_m - s.west_m);
-    return sum + kFigureRoom_m;
-  }
 };
 
 // Ten years, about half way, and the last age the species' own table knows.
@@ -84,20 +82,10 @@ Portrait grow_portrait(const scene::Species& species, const GalleryOptions& opti
   return portrait;
 }
 
-// Where one tree stands in a row.
-struct Place {
-  const Portrait* portrait;
-  const Portrait::Stage* stage;
-  bool leafed;
-  float x_m;  ///< of its foot
-};
-
 struct Row {
   std::vector<const Portrait*> portraits;
-  float height_m = 0, width_m = 0;  ///< width with the gaps
-  double scale = 0;                 ///< pixels a metre
-
-  float gap_m() const { return kGapOfHeight * height_m; }
+  float height_m = 0;
+  double scale = 0;  ///< pixels a metre
 };
 
 // Sizes of the sheet's parts, all by its width.
@@ -116,14 +104,60 @@ struct Page {
   double top() const { return 3.6 * unit(); }    // of the sheet
 };
 
-void measure_row(Row& row, const Page& page, double most_pixels) {
-  row.height_m = row.width_m = 0.0f;
-  for (const Portrait* p : row.portraits) row.height_m = std::max(row.height_m, p->height_m);
-  std::size_t gaps = 0;
-  for (const Portrait* p : row.portraits) row.width_m += p->width_m(), gaps += 2 * p->stages.size() + 1;
-  row.width_m += row.gap_m() * static_cast<float>(gaps - 1);
-  row.scale =
-      std::min(page.inner() / static_cast<double>(row.width_m), most_pixels / static_cast<double>(row.height_m));
+// Where one tree stands on the sheet.
+struct Place {
+  const Portrait* portrait;
+  const Portrait::Stage* stage;
+  bool leafed;
+  double x;         ///< of its foot, pixels from the sheet's left
+  double figure_x;  ///< where its species begins
+};
+
+// Room in pixels of the two pictures of an age, with a gap between; never less than their label needs.
+double pair_width(const Portrait::Stage& s, double scale, const Page& page) {
+  const double trees = 2.0 * scale * static_cast<double>(s.east_m - s.west_m) + kLeastPairGap * page.unit();
+  return std::max(trees, kLeastPair * page.unit());
+}
+
+double figure_width(double scale) { return scale * static_cast<double>(kFigureRoom_m); }
+
+// Gaps of a row, counted in gaps between two ages: a person and the pictures of one age stand nearer, species farther.
+constexpr double kFigureGap = 0.3, kPairGap = 0.25, kSpeciesGap = 3.0;
+
+double gaps_in(const Row& row) {
+  double gaps = kSpeciesGap * static_cast<double>(row.portraits.size() - 1);
+  for (const Portrait* p : row.portraits)
+    gaps += kFigureGap - 1.0 + (1.0 + kPairGap) * static_cast<double>(p->stages.size());
+  return gaps;
+}
+
+// Without the gaps.
+double row_width(const Row& row, const Page& page) {
+  double width = 0.0;
+  for (const Portrait* p : row.portraits) {
+    width += figure_width(row.scale);
+    for (const Portrait::Stage& s : p->stages) width += pair_width(s, row.scale, page);
+  }
+  return width;
+}
+
+bool fits(const Row& row, const Page& page) {
+  return row_width(row, page) + kLeastGap * page.unit() * gaps_in(row) <= page.inner();
+}
+
+// The tallest species first; rows `most_pixels` high, or less where one species alone would be too wide.
+std::vector<Row> rows_of(const std::vector<const Portrait*>& order, const Page& page, double most_pixels) {
+  std::vector<Row> rows;
+  for (const Portrait* p : order) {
+    if (!rows.empty()) {
+      rows.back().portraits.push_back(p);
+      if (fits(rows.back(), page)) continue;
+      rows.back().portraits.pop_back();
+    }
+    rows.push_back({{p}, p->height_m, most_pixels / static_cast<double>(p->height_m)});
+    while (!fits(rows.back(), page) && rows.back().scale > 0.1) rows.back().scale *= 0.99;
+  }
+  return rows;
 }
 
 double sheet_height(const std::vector<Row>& rows, const Page& page) {
@@ -132,59 +166,49 @@ double sheet_height(const std::vector<Row>& rows, const Page& page) {
   return height;
 }
 
-// The tallest species first, `together` in a row, rows at most `most_pixels` high.
-std::vector<Row> rows_of(const std::vector<const Portrait*>& order, const Page& page, std::size_t together,
-                         double most_pixels) {
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < order.size(); i += together) {
-    Row row;
-    for (std::size_t k = i; k < std::min(i + together, order.size()); ++k) row.portraits.push_back(order[k]);
-    measure_row(row, page, most_pixels);
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-// Of all layouts that fit, the one whose smallest trees are drawn largest; none when nothing fits.
+// The highest rows that the sheet has room for; none when even the lowest are too many.
 std::vector<Row> lay_out(const std::vector<Portrait>& portraits, const Page& page, double most_height) {
   std::vector<const Portrait*> order;
   for (const Portrait& p : portraits) order.push_back(&p);
   std::stable_sort(order.begin(), order.end(),
                    [](const Portrait* a, const Portrait* b) { return a->height_m > b->height_m; });
-  std::vector<Row> best;
-  double best_pixels = 0.0;
-  for (std::size_t together = 1; together <= order.size(); ++together)
-    for (double most = kMostRowOfWidth; most >= kLeastRowOfWidth; most -= 0.005) {
-      std::vector<Row> rows = rows_of(order, page, together, most * page.width);
-      if (sheet_height(rows, page) > most_height) continue;
-      double least = most_height;
-      for (const Row& row : rows) least = std::min(least, row.scale * static_cast<double>(row.height_m));
-      if (least > best_pixels) best_pixels = least, best = std::move(rows);
-      break;
-    }
-  return best;
+  for (double most = kMostRow; most >= kLeastRow; most -= 0.25) {
+    std::vector<Row> rows = rows_of(order, page, most * page.unit());
+    if (sheet_height(rows, page) <= most_height) return rows;
+  }
+  return {};
 }
 
-std::vector<Place> places_in(const Row& row) {
+std::vector<Place> places_in(const Row& row, const Page& page) {
+  // What the trees leave of the row goes between them.
+  const double gap = std::min(kMostGap * page.unit(), (page.inner() - row_width(row, page)) / gaps_in(row));
   std::vector<Place> places;
-  float x = 0.0f;
+  double x = page.margin() + page.axis();
   for (const Portrait* p : row.portraits) {
-    x += kFigureRoom_m + row.gap_m();
-    for (const Portrait::Stage& s : p->stages)
-      for (const bool leafed : {true, false}) {
-        places.push_back({p, &s, leafed, x - s.west_m});
-        x += s.east_m - s.west_m + row.gap_m();
-      }
+    const double figure_x = x;
+    x += figure_width(row.scale) + kFigureGap * gap;
+    for (const Portrait::Stage& s : p->stages) {
+      const double pair = pair_width(s, row.scale, page) + kPairGap * gap;
+      const double tree = row.scale * static_cast<double>(s.east_m - s.west_m);
+      const double between = std::min(pair - 2.0 * tree, kLeastPairGap * page.unit() + kPairGap * gap);
+      const double west = x + 0.5 * (pair - 2.0 * tree - between), foot = -row.scale * static_cast<double>(s.west_m);
+      places.push_back({p, &s, true, west + foot, figure_x});
+      places.push_back({p, &s, false, west + tree + between + foot, figure_x});
+      x += pair + gap;
+    }
+    x += (kSpeciesGap - 1.0) * gap;
   }
   return places;
 }
 
 // A flat site with the row's trees along its middle, of one half: those with leaves or those without.
-scene::GrownScene row_scene(const Row& row, const std::vector<Place>& places, bool leafed, std::uint64_t seed) {
+scene::GrownScene row_scene(const Row& row, const std::vector<Place>& places, bool leafed,
+                            const GalleryOptions& options) {
   scene::GrownScene scene;
   scene::Document& document = scene.document;
-  document.seed = seed;
-  const auto lattice = terrain::make_lattice(Vec2(row.width_m + 4.0f, 20.0f), 2.0f);
+  document.seed = options.seed;
+  const auto width_m = static_cast<float>(options.width / row.scale);
+  const auto lattice = terrain::make_lattice(Vec2(width_m, 2.0f * kMiddle_m), 2.0f);
   document.terrain = std::make_shared<const terrain::Terrain>(
       terrain::make_terrain(terrain::Heightfield(lattice ? *lattice : terrain::Lattice{})));
   std::vector<scene::Tree> trees;
@@ -199,7 +223,7 @@ scene::GrownScene row_scene(const Row& row, const std::vector<Place>& places, bo
     tree.id = static_cast<std::int32_t>(i + 1);
     tree.key = kGalleryKey;
     tree.species = static_cast<std::size_t>(at);
-    tree.at = {place.x_m, 10.0f};
+    tree.at = {static_cast<float>(place.x / row.scale), kMiddle_m};
     trees.push_back(tree);
     scene::GrownTree grown;
     grown.skeleton = place.portrait->skeleton;
@@ -220,7 +244,7 @@ Result<scene::Model> row_model(const Row& row, const std::vector<Place>& places,
     const scene::ModelOptions how{leafed ? options.season : geometry::Season::bare, geometry::FoliageLevel::clusters,
                                   kRowTriangles / 2};
     if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
-    auto built = scene::build_model(row_scene(row, places, leafed, options.seed), how, nullptr);
+    auto built = scene::build_model(row_scene(row, places, leafed, options), how, nullptr);
     if (!built) return built.error();
     const std::size_t first = model.materials.size();
     model.materials.insert(model.materials.end(), built->model.materials.begin(), built->model.materials.end());
@@ -251,8 +275,8 @@ Result<scene::Model> row_model(const Row& row, const std::vector<Place>& places,
     if (!place.leafed || place.stage != &place.portrait->stages.front()) continue;
     scene::Node node;
     node.name = "figure";
-    const float west = place.x_m + place.stage->west_m - 0.5f * row.gap_m();
-    node.translation = to_world(Vec2(west - 0.5f * kFigureRoom_m, 10.0f), 0.0f);
+    node.translation =
+        to_world(Vec2(static_cast<float>(place.figure_x / row.scale) + 0.5f * kFigureRoom_m, kMiddle_m), 0.0f);
     node.parts.push_back({figure, model.materials.size() - 1});
     model.nodes.push_back(std::move(node));
   }
@@ -262,12 +286,12 @@ Result<scene::Model> row_model(const Row& row, const std::vector<Place>& places,
 }
 
 // The row's elevation; the ground is the picture's lower edge.
-render::View elevation(const Row& row, double scale, double left_pixels, int width) {
+render::View elevation(const Row& row, int width) {
   render::View view;
   view.width = width;
-  view.height = static_cast<int>(std::ceil(scale * static_cast<double>(row.height_m)));
-  view.orthographic_height_m = static_cast<float>(view.height / scale);
-  const float x = static_cast<float>((0.5 * width - left_pixels) / scale);
+  view.height = static_cast<int>(std::ceil(row.scale * static_cast<double>(row.height_m)));
+  view.orthographic_height_m = static_cast<float>(view.height / row.scale);
+  const float x = static_cast<float>(0.5 * width / row.scale);
   const Vec3 target = Vec3(x, 0.5f * view.orthographic_height_m, -10.0f);
   view.camera.target = target;
   view.camera.eye = target + Vec3(0.0f, 0.0f, 300.0f);
@@ -292,9 +316,8 @@ void draw_scale(Sheet& sheet, const Page& page, const Row& row, double ground_y)
   }
 }
 
-void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vector<Place>& places, double left,
-                 double ground_y) {
-  const auto x_of = [&](float x_m) { return left + row.scale * static_cast<double>(x_m); };
+void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vector<Place>& places, double ground_y) {
+  const auto side = [&](const Place& place, float x_m) { return place.x + row.scale * static_cast<double>(x_m); };
   // The line's upper edge is the ground.
   sheet.box(page.margin() + page.axis(), ground_y, page.inner(), std::max(1.0, 0.10 * page.unit()), kGroundColour);
   const double name_y = ground_y - row.scale * static_cast<double>(row.height_m) - 0.9 * page.unit();
@@ -303,7 +326,7 @@ void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vect
     const Place& place = places[i];
     const scene::Species& species = *place.portrait->species;
     if (place.leafed && place.stage == &place.portrait->stages.front()) {
-      const double x = std::max(free_from, x_of(place.x_m + place.stage->west_m - row.gap_m() - kFigureRoom_m));
+      const double x = std::max(free_from, place.figure_x);
       std::string name = species.common_names.empty() ? species.name : species.common_names.front();
       name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
       const double width = sheet.text(x, name_y, name, {page.name_size(), Align::left, true, false, kInk});
@@ -314,7 +337,7 @@ void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vect
     if (!place.leafed) continue;
     // One label for both pictures of an age.
     const Portrait::Stage& s = *place.stage;
-    const double west = x_of(place.x_m + s.west_m), east = x_of(places[i + 1].x_m + s.east_m);
+    const double west = side(place, s.west_m), east = side(places[i + 1], s.east_m);
     const double middle = 0.5 * (west + east), y = ground_y + 1.35 * page.unit();
     sheet.line(west, ground_y + 0.45 * page.unit(), east, ground_y + 0.45 * page.unit(), 0.05 * page.unit(), kGrey);
     sheet.text(middle, y, fmt::format("{:.0f} years", s.age_years),
@@ -322,7 +345,8 @@ void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vect
     const std::string sizes = fmt::format("{}, crown {}", metres(static_cast<double>(s.measures.height_m)),
                                           metres(static_cast<double>(s.measures.crown_diameter_m)));
     const Lettering small{page.small_size(), Align::centre, false, false, kGrey};
-    if (sheet.text_width(sizes, small) < east - west + 1.5 * page.unit())
+    if (sheet.text_width(sizes, small) <
+        std::max(east - west, kLeastPair * page.unit()) + 0.5 * kLeastGap * page.unit())
       sheet.text(middle, y + 1.0 * page.unit(), sizes, small);
     else
       sheet.text(middle, y + 1.0 * page.unit(), metres(static_cast<double>(s.measures.height_m)), small);
@@ -362,19 +386,17 @@ Result<Image> draw_gallery(const std::vector<scene::Species>& species, const Gal
   if (progress) progress->begin("pictures", rows.size());
   double y = page.top();
   for (const Row& row : rows) {
-    const std::vector<Place> places = places_in(row);
+    const std::vector<Place> places = places_in(row, page);
     auto model = row_model(row, places, options, progress);
     if (!model) return model.error();
     if (auto uploaded = renderer->upload(*model); !uploaded) return uploaded.error();
-    const double left =
-        page.margin() + page.axis() + 0.5 * (page.inner() - row.scale * static_cast<double>(row.width_m));
-    auto drawn = renderer->draw(elevation(row, row.scale, left, options.width));
+    auto drawn = renderer->draw(elevation(row, options.width));
     if (!drawn) return drawn.error();
     if (cancelled()) return cannot_finish("cancelled; nothing was written");
     const double ground_y = std::round(y + page.above() + row.scale * static_cast<double>(row.height_m));
     draw_scale(*sheet, page, row, ground_y);
     sheet->picture(0, ground_y - drawn->height, *drawn);
-    draw_labels(*sheet, page, row, places, left, ground_y);
+    draw_labels(*sheet, page, row, places, ground_y);
     y = ground_y + page.below();
     if (progress) progress->advance();
   }
