@@ -24,6 +24,12 @@ class Occupancy {
   void add(std::int32_t node, const Vec3& p);
   void remove(std::int32_t node);
 
+  /// Tells the memory that occupied(p) will be asked.
+  void expect(Float4 p) const {
+    const Int4 at = whole((p - lanes(low_)) * all4(inverse_));
+    const IVec3 c{at[0], at[1], at[2]};
+    if (inside(c, 0)) __builtin_prefetch(&first_[place(c).entry()]);
+  }
   /// True when a node stands nearer than r.
   bool occupied(Float4 p) const;
   bool occupied(const Vec3& p) const { return occupied(lanes(p)); }

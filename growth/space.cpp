@@ -56,7 +56,10 @@ void drop_and_claim(Tree& tree) {
   }
   const RegionTest in_its_region(tree);
   const Float4 radius = all4(tree.occupied_m);
+  // First all markers that may stand as far as ground and region know, then wood and buds: many places are looked up at
+  // once that way, and none has to wait for what became of the one before.
   std::uint64_t tested = 0;
+  tree.dropped.clear();
   for (const Competitor& c : tree.competing) {
     const auto b = static_cast<std::size_t>(c.bud);
     const int markers = 1 + static_cast<int>(rate * buds.vigor[b]);
@@ -78,22 +81,31 @@ void drop_and_claim(Tree& tree) {
         ++refused;
         continue;
       }
-      if (tree.occupancy.occupied(marker)) continue;
-      const std::int32_t winner = tree.competitors.nearest(vec3(marker), std::sqrt(square(offset)), c.bud);
-      const auto w = static_cast<std::size_t>(winner);
-      buds.claimed[w] += normalised_or(vec3(marker) - buds.at[w], Vec3{0.0f});
-      ++buds.claims[w];
+      tree.occupancy.expect(marker);
+      tree.dropped.push_back({marker, square(offset), c.bud, false});
     }
     if (2 * refused > markers && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
       for (const Vec3& ahead : {c.direction, kUp}) {
-        ++tested;
         const Float4 marker = lanes(c.at + kAhead * tree.occupied_m * ahead);
+        ++tested;
         if (marker[1] <= ground || !in_its_region(marker) || tree.occupancy.occupied(marker)) continue;
-        buds.claimed[b] += ahead;
-        ++buds.claims[b];
+        tree.dropped.push_back({lanes(ahead), 0.0f, c.bud, true});
         break;
       }
     }
+  }
+  for (const DroppedMarker& d : tree.dropped) {
+    if (d.ahead) {
+      const auto b = static_cast<std::size_t>(d.bud);
+      buds.claimed[b] += vec3(d.at);
+      ++buds.claims[b];
+      continue;
+    }
+    if (tree.occupancy.occupied(d.at)) continue;
+    const std::int32_t winner = tree.competitors.nearest(vec3(d.at), std::sqrt(d.distance2), d.bud);
+    const auto w = static_cast<std::size_t>(winner);
+    buds.claimed[w] += normalised_or(vec3(d.at) - buds.at[w], Vec3{0.0f});
+    ++buds.claims[w];
   }
   tree.work.markers_tested += tested;
 }

@@ -70,6 +70,14 @@ struct GrowingBud {
   bool continues;  ///< the axis was there before this season
 };
 
+/// A marker that ground and region let stand; or, for the tip of a trunk, the direction in which it has room.
+struct DroppedMarker {
+  Float4 at;
+  float distance2;  ///< to its bud
+  std::int32_t bud;
+  bool ahead;
+};
+
 struct Tree {
   // What is grown.
   const GrowthInput* input = nullptr;
@@ -106,6 +114,7 @@ struct Tree {
   PerceptionSamples samples;
   CompetitorIndex competitors;
   std::vector<Competitor> competing;
+  std::vector<DroppedMarker> dropped;
   std::vector<Vec3> markers;          ///< painted ones, not yet consumed
   float highest_marker_m = 0;         ///< of those painted
   bool found_marker = false;          ///< some bud perceived a painted one
