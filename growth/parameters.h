@@ -12,6 +12,7 @@
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -253,8 +254,19 @@ void describe(P& p, Visitor& visit) {
   visit(Tables{"order", "Numbers that differ for branches of an order and higher"}, p.orders);
 }
 
+/// What is wrong with some parameters, and where a reader of files finds it.
+struct Mistake {
+  std::string message;     ///< begins with the owner's name
+  std::string_view key;    ///< of the number that is wrong
+  std::string_view table;  ///< "order" or "phase" when it was given there; empty: in the base table
+  std::size_t index = 0;   ///< of that table
+};
+
+/// The first mistake of check().
+std::optional<Mistake> find_mistake(const Parameters& parameters, std::string_view what = "growth parameters");
+
 /// Checks every range and what the keys promise each other: weights that sum to 1, the axis inside the bud ellipse, at
-/// most four phases. `what` names the owner in messages ("species english_oak").
+/// most four phases, in order, each for at least one order. `what` names the owner in messages ("species english_oak").
 Result<void> check(const Parameters& parameters, std::string_view what = "growth parameters");
 
 }  // namespace bosquet::growth

@@ -10,9 +10,6 @@ namespace {
 Result<Species> finish_species(const TomlFile& file, Species species, const std::string& source) {
   if (auto read = file.check(); !read) return read.error();
   if (species.name.empty()) return Error{fmt::format("{}: the key 'name' is missing", source)};
-  if (species.shape.trunk_height_m >= species.shape.mature_height_m)
-    return Error{fmt::format("{}: [shape] trunk_height_m = {:g} must be below mature_height_m = {:g}", source,
-                             species.shape.trunk_height_m, species.shape.mature_height_m)};
   if (auto fine = growth::check(species.growth, fmt::format("{}: [growth]", source)); !fine) return fine.error();
   return species;
 }
@@ -46,12 +43,28 @@ std::vector<OpenGrownSize> read_sizes(std::vector<TomlTable> tables) {
   return sizes;
 }
 
+// What the numbers of [growth] promise each other is told at the table and key that broke it.
+void check_growth(TomlTable& table, const growth::Parameters& parameters) {
+  const auto mistake = growth::find_mistake(parameters, "[growth]");
+  if (!mistake) return;
+  if (!mistake->table.empty()) {
+    std::vector<TomlTable> rows = table.tables(mistake->table);
+    if (mistake->index < rows.size()) return rows[mistake->index].error(mistake->key, mistake->message);
+  }
+  table.error(mistake->key, mistake->message);
+}
+
 }  // namespace
 
 void read_species_tables(TomlTable& table, Species& species) {
-  if (auto t = table.table("shape")) describe(species.shape, *t), t->finish();
+  if (auto t = table.table("shape")) {
+    describe(species.shape, *t), t->finish();
+    if (species.shape.trunk_height_m >= species.shape.mature_height_m)
+      t->error("trunk_height_m", fmt::format("trunk_height_m = {:g} must be below mature_height_m = {:g}",
+                                             species.shape.trunk_height_m, species.shape.mature_height_m));
+  }
   if (auto t = table.table("planting")) describe(species.planting, *t), t->finish();
-  if (auto t = table.table("growth")) describe(species.growth, *t), t->finish();
+  if (auto t = table.table("growth")) describe(species.growth, *t), t->finish(), check_growth(*t, species.growth);
   if (auto t = table.table("look"))
     describe(species.look, *t), geometry::describe_foliage(species.foliage, *t), t->finish();
   if (auto t = table.table("allometry")) describe(species.allometry, *t), t->finish();

@@ -193,7 +193,9 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
   const toml::node* node = state_->ask(key);
   if (!node) return {};
   if (!node->is_integer()) {
-    error(key, fmt::format("{} must be a whole number from {} to {}, not {}", key, low, high, type_name(*node)));
+    const std::string found = node->is_floating_point() ? fmt::format("{:g}", node->as_floating_point()->get())
+                                                        : std::string(type_name(*node));
+    error(key, fmt::format("{} must be a whole number from {} to {}, not {}", key, low, high, found));
     return {};
   }
   const std::int64_t value = node->as_integer()->get();

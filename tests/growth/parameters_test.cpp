@@ -75,6 +75,21 @@ TEST(GrowthParameters, MoreThanFourPhasesAreRefused) {
   EXPECT_EQ(refusal(p), "species elm: 5 phases, allowed are at most 4");
 }
 
+TEST(GrowthParameters, AMistakeIsFoundWithItsKeyAndTable) {
+  Parameters p;
+  EXPECT_FALSE(find_mistake(p));
+  p.orders.resize(2);
+  p.orders[1].change.gravimorphism_offset = 2.0f;
+  const auto mistake = find_mistake(p, "elm");
+  ASSERT_TRUE(mistake);
+  EXPECT_EQ(mistake->key, "gravimorphism_offset");
+  EXPECT_EQ(mistake->table, "order");
+  EXPECT_EQ(mistake->index, 1u);
+  p = {};
+  p.phases.push_back({0.5f, 4, 2, {}});
+  EXPECT_EQ(refusal(p), "species elm: phase 1 changes no axes: from_order = 4 is above to_order = 2");
+}
+
 TEST(GrowthParameters, PhasesComeInTheOrderOfTheirHeights) {
   Parameters p;
   p.phases.resize(2);

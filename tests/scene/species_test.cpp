@@ -1,6 +1,12 @@
 #include "scene/species.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "growth/parameters.h"
 #include "scene/document.h"
@@ -44,6 +50,61 @@ TEST(Species, AnUnknownNameListsTheKnownOnes) {
   ASSERT_FALSE(species);
   EXPECT_NE(species.error().message.find("did you mean 'english_oak'?"), std::string::npos);
   EXPECT_NE(species.error().message.find("weeping_willow"), std::string::npos);
+}
+
+/// What reading a species file of these lines (after `name = "x"`) says; the file's name is left out.
+std::string refusal(const std::string& lines) {
+  const auto path = std::filesystem::temp_directory_path() / ("bosquet_species_test_" + std::to_string(getpid()));
+  std::ofstream(path) << "name = \"x\"\n" << lines;
+  const Result<Species> read = read_species_file(path);
+  std::filesystem::remove(path);
+  if (read) return "accepted";
+  const std::string& message = read.error().message;
+  EXPECT_EQ(message.find(path.string()), 0u) << "the file is named first: " << message;
+  return message.substr(std::min(message.size(), path.string().size() + 1));
+}
+
+TEST(Species, AMistakeInTheFileNamesLineKeyAndWhatIsAllowed) {
+  EXPECT_EQ(refusal("[growth]\nbranching_angle_deg = 130\n"),
+            "3: branching_angle_deg = 130 is out of range; allowed: 10 to 120 deg");
+  EXPECT_EQ(refusal("[growth]\nstraightness = nan\n"), "3: straightness = nan is out of range; allowed: 0 to 1");
+  EXPECT_EQ(refusal("[growth]\n\nspace = -inf\n"), "4: space = -inf is out of range; allowed: 0 to 1");
+  EXPECT_EQ(refusal("[growth]\nmax_shoot_length = 3.5\n"),
+            "3: max_shoot_length must be a whole number from 2 to 12, not 3.5");
+  EXPECT_EQ(refusal("[growth]\nbole = \"high\"\n"), "3: bole must be a number from 0 to 0.5, not a text");
+  EXPECT_EQ(refusal("[growth]\nstraightnes = 0.5\n"), "3: unknown key 'straightnes'; did you mean 'straightness'?");
+  EXPECT_EQ(refusal("[growth]\nphyllotaxis = \"spirl\"\n"),
+            "3: phyllotaxis = \"spirl\" is not known; allowed: spiral, distichous, decussate, whorled");
+  EXPECT_EQ(refusal("[growht]\n"), "2: unknown key 'growht'; did you mean 'growth'?");
+  EXPECT_EQ(refusal("[growth]\nstraightness =\n").substr(0, 2), "3:") << "a value that is missing";
+  EXPECT_EQ(refusal("[shape]\nmature_height_m = 20\ntrunk_height_m = 30\n"),
+            "4: trunk_height_m = 30 must be below mature_height_m = 20");
+}
+
+TEST(Species, AMistakeInAnOrderOrPhaseIsToldAtItsLine) {
+  EXPECT_EQ(refusal("[[growth.order]]\nset_point_angle_deg = 200\n"),
+            "3: set_point_angle_deg = 200 is out of range; allowed: 0 to 180 deg");
+  EXPECT_EQ(refusal("[[growth.phase]]\nfrom = 0.5\nspace = nan\n"), "4: space = nan is out of range; allowed: 0 to 1");
+  EXPECT_EQ(refusal("[[growth.phase]]\nfrom = 0.5\n[[growth.phase]]\nfrom = 0.2\n"),
+            "5: [growth]: phase 2 begins at 0.2, before phase 1 at 0.5");
+  EXPECT_EQ(refusal("[[growth.phase]]\nfrom_order = 5\nto_order = 2\n"),
+            "3: [growth]: phase 1 changes no axes: from_order = 5 is above to_order = 2");
+  EXPECT_EQ(refusal("[[growth.phase]]\n[[growth.phase]]\n[[growth.phase]]\n[[growth.phase]]\n[[growth.phase]]\n"),
+            "6: [growth]: 5 phases, allowed are at most 4");
+}
+
+TEST(Species, NumbersThatDoNotFitTogetherAreToldAtTheTableThatBrokeThem) {
+  EXPECT_EQ(refusal("[growth]\nbole = 0.1\nstraightness = 0.25\n"),
+            "4: [growth], order 0: straightness 0.25 + tropism 0.2 + space 0.3 = 0.75, the sum must be 1");
+  EXPECT_EQ(refusal("[growth]\n[[growth.order]]\nfrom = 2\nstraightness = 0.25\n"),
+            "5: [growth], order 2: straightness 0.25 + tropism 0.2 + space 0.3 = 0.75, the sum must be 1");
+  EXPECT_EQ(refusal("[growth]\ngravimorphism_vertical = 0.5\ngravimorphism_offset = 0.6\n"),
+            "4: [growth], order 0: gravimorphism_offset = 0.6 puts the axis outside the bud ellipse, allowed is less "
+            "than gravimorphism_vertical = 0.5 either way");
+  EXPECT_EQ(
+      refusal("[growth]\n[[growth.phase]]\nfrom = 0.4\nfrom_order = 1\ngravimorphism_offset = -1\n"),
+      "6: [growth], order 1, phase 1: gravimorphism_offset = -1 puts the axis outside the bud ellipse, allowed is "
+      "less than gravimorphism_vertical = 1 either way");
 }
 
 TEST(Species, MeasuredSizesSetTheScalesAndMissingOnesFollowAllometry) {

@@ -87,7 +87,7 @@ TEST(TomlTable, AMistakeNamesFileLineKeyAndWhatIsAllowed) {
             "sample.toml:2: angle_deg = 400 is out of range; allowed: 10 to 120 deg");
   EXPECT_EQ(mistake_in("angle_deg = 'steep'"),
             "sample.toml:1: angle_deg must be a number from 10 to 120 deg, not a text");
-  EXPECT_EQ(mistake_in("lobes = 2.5"), "sample.toml:1: lobes must be a whole number from 1 to 9, not a number");
+  EXPECT_EQ(mistake_in("lobes = 2.5"), "sample.toml:1: lobes must be a whole number from 1 to 9, not 2.5");
   EXPECT_EQ(mistake_in("angle_deg = nan"), "sample.toml:1: angle_deg = nan is out of range; allowed: 10 to 120 deg");
   EXPECT_EQ(mistake_in("shade = 'dim'"), "sample.toml:1: shade = \"dim\" is not known; allowed: light, dark");
   EXPECT_EQ(mistake_in("colour = 'green'"),
