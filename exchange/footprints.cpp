@@ -94,8 +94,7 @@ Result<Footprints> read_footprints(const std::filesystem::path& path, DVec2 sout
     const bool in_degrees = crs && crs->IsGeographic() && has_extent && extent.MinX >= -180 && extent.MaxX <= 180 &&
                             extent.MinY >= -90 && extent.MaxY <= 90;
     const bool tiny = has_extent && extent.MaxX - extent.MinX < 0.5 && extent.MaxY - extent.MinY < 0.5;
-    if (in_degrees && tiny)
-      return Error{fmt::format("{}: its outlines are in degrees; reproject them to the site's metres first", name)};
+    const std::size_t before = out.all.size();
     for (const auto& feature : *layer) {
       const OGRGeometry* shape = feature->GetGeometryRef();
       if (!shape) continue;
@@ -113,6 +112,8 @@ Result<Footprints> read_footprints(const std::filesystem::path& path, DVec2 sout
       else
         add(*shape);
     }
+    if (in_degrees && tiny && out.all.size() > before)
+      return Error{fmt::format("{}: its outlines are in degrees; reproject them to the site's metres first", name)};
   }
   if (out.all.empty()) return Error{fmt::format("{} has no polygon", name)};
   if (others > 0) out.notes.push_back(fmt::format("{} shapes are no polygons and were left out", others));

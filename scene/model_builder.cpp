@@ -26,7 +26,7 @@ constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
 constexpr float kMostShade = 0.5f;
 constexpr std::size_t kMostGroundTriangles = 200'000;
 // Obstacles are volumes in a plain light render.
-constexpr Vec3 kObstacleGrey{0.62f, 0.60f, 0.56f};
+constexpr Vec3 kObstacleGrey{0.40f, 0.385f, 0.36f};
 // Seed of the textures: a species looks the same in every document.
 constexpr std::uint64_t kTextureSeed = 1;
 // The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.

@@ -13,6 +13,7 @@ constexpr int kDiscSides = 32, kEllipsoidRings = 12;
 constexpr float kArrowWidth_m = 0.35f;
 // An asymmetry of length 1 is drawn as long as the tree's crown radius times this.
 constexpr float kArrowScale = 1.5f;
+constexpr Vec3 kObstacleTint{0.22f, 0.21f, 0.20f};
 
 Rgba8 colour(const Vec3& linear) {
   return Rgba8(glm::vec<3, std::uint8_t>(glm::clamp(linear, 0.0f, 1.0f) * 255.0f + 0.5f), 255);
@@ -115,9 +116,26 @@ float tallest_m(const GrownScene& scene) {
   return tallest;
 }
 
+// Obstacles laid flat, for views from above.
+void add_footprints(Model& model, const GrownScene& scene, float y, std::size_t material) {
+  for (const Obstacle& obstacle : scene.document.obstacles) {
+    TriangleMesh flat;
+    flat.positions = obstacle.mesh->positions;
+    for (Vec3& p : flat.positions) p.y = y;
+    flat.indices = obstacle.mesh->indices;
+    // Both ways up, as undersides lie flat too.
+    for (std::size_t t = 0; t < obstacle.mesh->indices.size(); t += 3)
+      flat.indices.insert(flat.indices.end(), {flat.indices[t], flat.indices[t + 2], flat.indices[t + 1]});
+    flat.normals.assign(flat.positions.size(), kUp);
+    flat.colours.assign(flat.positions.size(), colour(kObstacleTint));
+    add_node(model, obstacle.name, std::move(flat), material);
+  }
+}
+
 void add_crown_discs(Model& model, const GrownScene& scene, float y) {
   const std::size_t flat = add_material(model, "plan", Surface::obstacle);
   add_node(model, "site", sheet(scene, y), flat);
+  add_footprints(model, scene, y + 0.03f, flat);
   // Taller crowns over lower ones, each a little higher so that none flickers.
   std::vector<std::size_t> order(scene.trees.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -167,6 +185,7 @@ Result<Model> shapes_model(const GrownScene& scene) {
     add_lathe(mesh, foot, profile, colour(0.7f * hashed_colour(hash_text(scene.document.species_of(tree).name))));
   }
   add_node(model, "shapes", std::move(mesh), material);
+  for (const Obstacle& obstacle : scene.document.obstacles) add_node(model, obstacle.name, *obstacle.mesh, material);
   return model;
 }
 
@@ -191,11 +210,11 @@ Result<Model> regions_model(const GrownScene& scene, std::optional<float> height
       };
       std::int32_t end = i + 1;
       while (end < cut.width && id(end) == id(i)) ++end;
-      if (id(i) > 0) {
+      if (id(i) != 0) {
         const Vec2 low = cut.low + cut.voxel_m * Vec2(i, j), high = cut.low + cut.voxel_m * Vec2(end, j + 1);
         add_quad(mesh,
                  {to_world(low, y), to_world({high.x, low.y}, y), to_world(high, y), to_world({low.x, high.y}, y)},
-                 colour(hashed_colour(static_cast<std::uint64_t>(id(i)))));
+                 colour(id(i) < 0 ? kObstacleTint : hashed_colour(static_cast<std::uint64_t>(id(i)))));
       }
       i = end;
     }
