@@ -35,10 +35,14 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-// A genus word stands alone or ends a compound: "black oak" and "blackoak", not "oakleaf hydrangea".
+// A genus word stands alone or ends a compound: "black oak" and "blackoak", not "oakleaf hydrangea". A compound's first
+// part is a word too, which "Al" of "Alpine" is not.
 bool names_genus(const std::vector<std::string>& words, std::string_view genus) {
+  constexpr std::size_t kShortestPart = 3;
   const std::string end = folded(genus);
-  return std::any_of(words.begin(), words.end(), [&](const std::string& w) { return w.ends_with(end); });
+  return std::any_of(words.begin(), words.end(), [&](const std::string& w) {
+    return w == end || (w.ends_with(end) && w.size() >= end.size() + kShortestPart);
+  });
 }
 
 // "Alpine" and "firethorn" are no conifers, so these words count only where they stand alone.
