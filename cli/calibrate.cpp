@@ -80,8 +80,7 @@ Verdict judge(const Species& species, const Calibration& c) {
     if (const auto failed = failures(at); !failed.empty())
       v.failed.push_back(fmt::format("at {:g} years {}", at.age_years, fmt::join(failed, ", ")));
   for (const auto& d : c.other_details)
-    if (const float off = deviation(d.mean.crown_diameter_m, c.mature.crown_diameter_m);
-        std::abs(off) > kSilhouetteBand)
+    if (const float off = d.crown_width - 1.0f; std::abs(off) > kSilhouetteBand)
       v.failed.push_back(fmt::format("at detail {:g} the crown is {:+.0f}% wide", d.detail, 100.0f * off));
   const float height = species.shape.mature_height_m;
   if (c.mature.height_m < 0.97f * height)
@@ -128,10 +127,12 @@ Outcome print_report(const Species& species, const Calibration& c, const scene::
       c.seasons);
 
   print_number("[shape] trunk_height_m", fmt::format("{:.1f}", m.crown_base_m), species.shape.trunk_height_m);
-  for (const auto& d : c.other_details) fmt::print("   detail {:g}: {:.1f}", d.detail, d.mean.crown_base_m);
+  for (const auto& d : c.other_details)
+    fmt::print("   detail {:g}: {:+.1f}%", d.detail, 100.0f * (d.crown_base - 1.0f));
   fmt::print("\n");
   print_number("[shape] crown_width_m", fmt::format("{:.1f}", m.crown_diameter_m), species.shape.crown_width_m);
-  for (const auto& d : c.other_details) fmt::print("   detail {:g}: {:.1f}", d.detail, d.mean.crown_diameter_m);
+  for (const auto& d : c.other_details)
+    fmt::print("   detail {:g}: {:+.1f}%", d.detail, 100.0f * (d.crown_width - 1.0f));
   fmt::print("\n");
   print_number("[shape] trunk_width_m", fmt::format("{:.2f}", m.trunk_diameter_m), species.shape.trunk_width_m);
   fmt::print("\n");

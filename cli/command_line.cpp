@@ -143,12 +143,16 @@ ParsedLine parse_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
   app.require_subcommand(0, 1);
 
-  CLI::App* make = app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb");
+  CLI::App* make =
+      app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb .tree.json");
   make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
   make->add_option("-o,--output", o.outputs, "Output; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->option_text("OUT");
+  make->add_option("--tree", o.tree, "The tree, by its id, that goes into an output NAME.tree.json")
+      ->check(whole())
+      ->option_text("ID");
   add_scene(make, o), add_picture(make, o), add_common(make, o);
   make->callback([&] { o.command = Command::make; });
 

@@ -303,7 +303,7 @@ render::View elevation(const Row& row, int width) {
   return view;
 }
 
-std::string metres(double value) { return fmt::format("{:.{}f} m", value, value < 9.95 ? 1 : 0); }
+std::string metres(float value) { return fmt::format("{:.{}f}", value, value < 9.95f ? 1 : 0); }
 
 void draw_scale(Sheet& sheet, const Page& page, const Row& row, double ground_y) {
   const int step = row.height_m > 12.0f ? 5 : row.height_m > 6.0f ? 2 : 1;
@@ -342,14 +342,9 @@ void draw_labels(Sheet& sheet, const Page& page, const Row& row, const std::vect
     sheet.line(west, ground_y + 0.45 * page.unit(), east, ground_y + 0.45 * page.unit(), 0.05 * page.unit(), kGrey);
     sheet.text(middle, y, fmt::format("{:.0f} years", s.age_years),
                {page.label_size(), Align::centre, false, false, kInk});
-    const std::string sizes = fmt::format("{}, crown {}", metres(static_cast<double>(s.measures.height_m)),
-                                          metres(static_cast<double>(s.measures.crown_diameter_m)));
-    const Lettering small{page.small_size(), Align::centre, false, false, kGrey};
-    if (sheet.text_width(sizes, small) <
-        std::max(east - west, kLeastPair * page.unit()) + 0.5 * kLeastGap * page.unit())
-      sheet.text(middle, y + 1.0 * page.unit(), sizes, small);
-    else
-      sheet.text(middle, y + 1.0 * page.unit(), metres(static_cast<double>(s.measures.height_m)), small);
+    sheet.text(middle, y + 1.0 * page.unit(),
+               fmt::format("{} \u00d7 {} m", metres(s.measures.height_m), metres(s.measures.crown_diameter_m)),
+               {page.small_size(), Align::centre, false, false, kGrey});
   }
 }
 
@@ -373,10 +368,11 @@ Result<Image> draw_gallery(const std::vector<scene::Species>& species, const Gal
                              options.width, options.height)};
   auto sheet = Sheet::create(options.width, static_cast<int>(std::ceil(sheet_height(rows, page))));
   if (!sheet) return sheet.error();
-  sheet->text(page.margin(), 2.0 * page.unit(),
-              "Free-standing trees, with and without leaves. Each row has its own scale: lines tell heights, the "
-              "person is 1.75 m tall.",
-              {page.label_size(), Align::left, false, false, kGrey});
+  sheet->text(
+      page.margin(), 2.0 * page.unit(),
+      "Free-standing trees with and without leaves, height \u00d7 crown. Each row has its own scale: lines tell "
+      "heights, the person is 1.75 m tall.",
+      {page.label_size(), Align::left, false, false, kGrey});
 
   auto context = render::HeadlessContext::create();
   if (!context) return context.error();

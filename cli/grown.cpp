@@ -17,6 +17,8 @@ constexpr std::size_t kShownWarnings = 12;
 Result<void> refuse_overwriting(const exchange::Recipe& recipe, const Options& options) {
   std::vector<std::filesystem::path> inputs{recipe.file, recipe.ground.dem};
   for (const exchange::PlantingRecipe& planting : recipe.plantings) inputs.push_back(planting.file);
+  for (const exchange::ObstacleRecipe& obstacle : recipe.obstacles) inputs.push_back(obstacle.file);
+  for (const exchange::HeroRecipe& hero : recipe.heroes) inputs.push_back(hero.file);
   std::vector<std::filesystem::path> targets = options.outputs;
   targets.push_back(options.report);
   for (const auto& target : targets)

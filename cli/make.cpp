@@ -14,6 +14,7 @@
 #include "crowns/vdb.h"
 #include "exchange/gltf_writer.h"
 #include "exchange/schedule.h"
+#include "exchange/tree_file.h"
 #include "scene/model_builder.h"
 
 namespace bosquet::cli {
@@ -68,10 +69,26 @@ Result<std::uint64_t> write_csv(const Made& made, const path& target) {
 
 Result<std::uint64_t> write_voxels(const Made& made, const path& target) {
   std::vector<std::pair<std::int32_t, std::string>> names;
+  for (const scene::Obstacle& o : made.grown.document.obstacles) names.emplace_back(o.id, o.name);
+  for (const scene::HeroTree& h : made.grown.document.heroes) names.emplace_back(h.id, h.name);
   for (const scene::Tree& tree : *made.grown.document.trees)
     names.emplace_back(tree.id, fmt::format("{}-{}", made.grown.document.species_of(tree).name, tree.id));
   if (auto done = crowns::write_vdb(crowns::build_grid(made.grown.space), target, names); !done) return done.error();
   return size_of(target);
+}
+
+Result<std::uint64_t> write_one_tree(const Made& made, const path& target) {
+  const scene::Document& document = made.grown.document;
+  for (std::size_t i = 0; i < made.grown.trees.size(); ++i) {
+    const scene::Tree& tree = (*document.trees)[i];
+    if (tree.id != *made.options.tree) continue;
+    const scene::Species& species = document.species_of(tree);
+    const exchange::SavedTree saved{species.name,      document.seed,    tree.key,
+                                    tree.scale_height, tree.scale_width, *made.grown.trees[i].skeleton};
+    return exchange::write_tree(saved, species.growth, target);
+  }
+  return Error{fmt::format("--tree {}: there is no such tree; ids run from 1 to {}", *made.options.tree,
+                           made.grown.trees.size())};
 }
 
 struct Format {
@@ -79,11 +96,9 @@ struct Format {
   Writer write;
   bool model;  ///< needs meshes
 };
-constexpr Format kFormats[] = {{".glb", write_model, true},
-                               {".gltf", write_model, true},
-                               {".png", write_png, true},
-                               {".csv", write_csv, false},
-                               {".vdb", write_voxels, false}};
+constexpr Format kFormats[] = {{".glb", write_model, true},   {".gltf", write_model, true},
+                               {".png", write_png, true},     {".csv", write_csv, false},
+                               {".vdb", write_voxels, false}, {".json", write_one_tree, false}};
 
 const Format* format_of(const path& target) {
   const std::string ending = target.extension().string();
@@ -113,7 +128,11 @@ Result<void> check_targets(const Options& options, bool picture_only) {
   for (const path& target : options.outputs) {
     if (picture_only ? target.extension() != ".png" : !format_of(target))
       return Error{fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(),
-                               target.extension().string(), picture_only ? ".png" : ".glb .gltf .png .csv .vdb")};
+                               target.extension().string(),
+                               picture_only ? ".png" : ".glb .gltf .png .csv .vdb .tree.json")};
+    if (const bool tree = target.extension() == ".json";
+        tree && (!options.tree || target.stem().extension() != ".tree"))
+      return Error{fmt::format("{}: a tree is saved with --tree ID as NAME.tree.json", target.string())};
     if (auto fine = check_folder(target); !fine) return fine;
     if (!seen.insert(std::filesystem::absolute(target).lexically_normal()).second)
       return Error{fmt::format("{}: is asked for twice", target.string())};

@@ -41,6 +41,7 @@ struct Options {
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::optional<std::size_t> max_triangles;
+  std::optional<std::int32_t> tree;  ///< id of the one that a .tree.json gets
 
   // Picture.
   ViewKind view = ViewKind::trees;

@@ -204,15 +204,19 @@ Result<Calibration> calibrate(const Species& species, const CalibrationOptions& 
   });
   c.crown_spread = std::sqrt(variance) / std::max(c.mature.crown_diameter_m, 1e-3f);
 
+  const Stand same{{stand.lives.begin(), stand.lives.begin() + others}, 0.0};
   for (float detail : kOtherDetails) {
     if (others == 0) break;
     const Stand other = grow_stand(species, detail, others, ages, progress);
     if (cancelled()) return cannot_finish("cancelled; nothing was written");
+    const growth::Measures now = mean_measures(other, mature, c.pipe_exponent),
+                           before = mean_measures(same, mature, c.pipe_exponent);
     DetailMeasures d;
     d.detail = detail;
-    d.mean = mean_measures(other, mature, c.pipe_exponent);
-    if (!species.sizes.empty())
-      d.pipe_exponent = solve_mean_trunk(other, species.sizes.size() - 1, 0.01f * species.sizes.back().trunk_cm);
+    d.crown_width = now.crown_diameter_m / std::max(before.crown_diameter_m, 1e-3f);
+    d.crown_base = now.crown_base_m / std::max(before.crown_base_m, 1e-3f);
+    if (c.exponent_solved)
+      d.pipe_exponent = solve_mean_trunk(other, ages.size() - 1, same.mean_trunk(ages.size() - 1, c.pipe_exponent));
     c.other_details.push_back(d);
   }
   return c;

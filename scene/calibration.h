@@ -9,7 +9,8 @@
 // Decision  mature_height_m is the height that growth ends at, not the tree's at 100 years: give a few per cent more than
 //           the last row's height, or the curve cannot reach it; a curve that stands still long before also fits badly
 // Decision  a mean size may miss its row by 20 % from 45 years on, by 30 % from 20 on; younger trees are reported
-// Decision  other details are measured on fewer trees: they show that n and silhouette hold, and are not written
+// Decision  other details are measured on the first few trees, beside the same ones at detail 1: they show that n and
+//           silhouette hold, and are not written
 // Units     metres; [[size]] rows give trunks in cm, as tables of trees do
 // Errors    cancelled (kind cannot_finish); a species text in which a number's place cannot be found
 #pragma once
@@ -47,11 +48,11 @@ struct AgeMeasures {
   float season = 0;
 };
 
-/// Mature trees at another detail.
+/// Mature trees at another detail, as shares of what the same trees are at detail 1.
 struct DetailMeasures {
   float detail = 1;
-  growth::Measures mean;
-  std::optional<float> pipe_exponent;  ///< that makes the last row's trunk at this detail
+  float crown_width = 1, crown_base = 1;
+  std::optional<float> pipe_exponent;  ///< that makes the trunks they have at detail 1 with the calibrated one
 };
 
 struct Calibration {
