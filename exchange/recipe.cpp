@@ -32,6 +32,8 @@ class Reader {
     if (auto table = root.table("asymmetry")) describe(recipe_.document.asymmetry, *table), table->finish();
     if (auto table = root.table("light")) describe(recipe_.document.light, *table), table->finish();
     for (TomlTable& table : root.tables("obstacle")) read_obstacle(table);
+    for (TomlTable& table : root.tables("hero"))
+      if (auto read = read_hero(table); !read) return read;
     for (TomlTable& table : root.tables("camera")) read_camera(table);
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("export")) {
@@ -313,6 +315,29 @@ class Reader {
     if (mesh && table.has("height_m")) table.error("height_m", "a mesh has its own height; use scale");
     table.finish();
     recipe_.obstacles.push_back(std::move(obstacle));
+  }
+
+  Result<void> read_hero(TomlTable& table) {
+    HeroRecipe hero;
+    hero.name = table.text("name").value_or(fmt::format("hero {}", recipe_.heroes.size() + 1));
+    if (auto at = table.numbers("at", 2))
+      hero.at = {static_cast<float>((*at)[0]), static_cast<float>((*at)[1])};
+    else if (!table.has("at"))
+      table.error("", "a [[hero]] needs at = [east, north]");
+    hero.rotation_deg = static_cast<float>(table.number("rotation_deg", -360, 360).value_or(0.0));
+    hero.scale = static_cast<float>(table.number("scale", 0.02, 10).value_or(1.0));
+    if (auto file = table.text("file")) {
+      hero.file = folder_ / *file;
+      auto tree = read_tree(hero.file);
+      if (!tree) return tree.error();
+      if (auto index = species(table, "file", tree->species)) hero.species = *index;
+      hero.tree = std::make_shared<const SavedTree>(std::move(*tree));
+    } else if (!table.has("file")) {
+      table.error("", "a [[hero]] needs file = \"NAME.tree.json\"");
+    }
+    table.finish();
+    recipe_.heroes.push_back(std::move(hero));
+    return {};
   }
 
   void read_camera(TomlTable& table) {

@@ -23,6 +23,7 @@
 #include "distribution/rows.h"
 #include "distribution/sowing.h"
 #include "exchange/inventory.h"
+#include "exchange/tree_file.h"
 #include "scene/document.h"
 #include "scene/grown_scene.h"
 #include "terrain/brush.h"
@@ -81,6 +82,15 @@ struct ObstacleRecipe {
   float height_m = 8.0f;  ///< of outlines that say none
 };
 
+struct HeroRecipe {
+  std::string name;
+  std::filesystem::path file;
+  Vec2 at{0.0f};
+  float scale = 1.0f, rotation_deg = 0.0f;
+  std::size_t species = 0;  ///< for its look
+  std::shared_ptr<const SavedTree> tree;
+};
+
 struct CameraRecipe {
   std::string name;
   Vec3 eye{0.0f}, target{0.0f};  ///< east, north, metres above the ground there
@@ -96,6 +106,7 @@ struct Recipe {
   std::vector<distribution::Interaction> interactions;
   std::vector<PlantingRecipe> plantings;
   std::vector<ObstacleRecipe> obstacles;
+  std::vector<HeroRecipe> heroes;
   std::vector<CameraRecipe> cameras;
 };
 

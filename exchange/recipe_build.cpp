@@ -119,6 +119,15 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
   return {};
 }
 
+void place_heroes(const Recipe& recipe, scene::Document& document) {
+  for (const HeroRecipe& h : recipe.heroes) {
+    const auto id = -1 - static_cast<std::int32_t>(document.obstacles.size() + document.heroes.size());
+    document.heroes.push_back(
+        {id, h.name, h.species, h.tree->key, h.at,
+         std::make_shared<const growth::Skeleton>(scene::placed(h.tree->skeleton, h.scale, h.rotation_deg))});
+  }
+}
+
 std::vector<distribution::Species> planting_species(const scene::Document& document) {
   std::vector<distribution::Species> species;
   for (const auto& s : document.species) species.push_back({s->name, s->shape.trunk_width_m, s->planting});
@@ -292,6 +301,7 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
   document.terrain = std::make_shared<const terrain::Terrain>(std::move(*ground));
   if (auto done = make_obstacles(recipe, document, built.warnings); !done)
     return Error{fmt::format("{}: {}", recipe.file.string(), done.error().message)};
+  place_heroes(recipe, document);
   built.seconds["terrain"] = watch.restart();
 
   if (progress) progress->begin("planting", 0);

@@ -17,6 +17,7 @@
 #include "crowns/asymmetry.h"
 #include "crowns/canopy_light.h"
 #include "crowns/crown_space.h"
+#include "scene/hero_tree.h"
 #include "scene/model.h"
 #include "scene/obstacle.h"
 #include "scene/species.h"
@@ -50,6 +51,7 @@ struct Document {
   std::vector<std::shared_ptr<const Species>> species;
   std::shared_ptr<const std::vector<Tree>> trees;
   std::vector<Obstacle> obstacles;
+  std::vector<HeroTree> heroes;
   crowns::SpaceOptions space;
   crowns::AsymmetryOptions asymmetry;
   crowns::LightOptions light;

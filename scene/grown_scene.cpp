@@ -106,7 +106,7 @@ Result<GrownScene> grow_scene(const Document& document, const GrowOptions& optio
     auto space = crowns::divide_space(claimants(document), *there, *document.terrain, document.space, progress);
     if (!space) return space.error();
     scene.space = std::move(*space);
-    if (options.asymmetry) 
+    if (options.asymmetry)
       asymmetry = crowns::neighbourhood_asymmetry(scene.space, document.asymmetry, document.terrain.get());
     for (std::string& warning : space_warnings(scene.space, document)) scene.warnings.push_back(std::move(warning));
   }

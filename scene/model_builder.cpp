@@ -65,6 +65,7 @@ std::vector<Material> make_materials(const Document& document, geometry::Season 
   std::vector<Material> materials(kOfSpecies * n + 3);
   std::vector<bool> used(n, false);
   for (const Tree& tree : *document.trees) used[tree.species] = true;
+  for (const HeroTree& hero : document.heroes) used[hero.species] = true;
   parallel_for(2 * n + 1, [&](std::size_t job) {
     const std::size_t s = job / 2;
     if (s == n) {
@@ -170,6 +171,50 @@ Extras tree_extras(const Document& document, const Tree& tree, const GrownTree& 
   return extras;
 }
 
+// What a tree's meshes are made from.
+struct Drawn {
+  std::string name;
+  const growth::Skeleton* skeleton = nullptr;
+  int season = -1;
+  std::size_t species = 0;
+  std::uint64_t key = 0;
+  Vec3 base{0.0f};
+  float height_m = 0;
+  Extras extras;
+};
+
+std::vector<Drawn> drawn_trees(const GrownScene& scene) {
+  const Document& document = scene.document;
+  std::vector<Drawn> all;
+  const auto base = [&](Vec2 at) { return to_world(at, document.terrain->ground(at)); };
+  for (std::size_t i = 0; i < scene.trees.size(); ++i) {
+    const Tree& tree = (*document.trees)[i];
+    const GrownTree& grown = scene.trees[i];
+    all.push_back({fmt::format("{}-{}", document.species_of(tree).name, tree.id), grown.skeleton.get(), grown.season,
+                   tree.species, tree.key, base(tree.at), grown.measures.height_m, tree_extras(document, tree, grown)});
+  }
+  for (const HeroTree& hero : document.heroes) {
+    float height = 0;
+    for (const Vec3& p : hero.skeleton->distal) height = std::max(height, p.y);
+    const Species& species = *document.species[hero.species];
+    all.push_back({hero.name,
+                   hero.skeleton.get(),
+                   -1,
+                   hero.species,
+                   hero.key,
+                   base(hero.at),
+                   height,
+                   {{"species", species.name},
+                    {"botanical_name", species.botanical_name},
+                    {"hero_tree", hero.name},
+                    {"id", static_cast<double>(hero.id)},
+                    {"east_m", static_cast<double>(hero.at.x)},
+                    {"north_m", static_cast<double>(hero.at.y)},
+                    {"height_m", static_cast<double>(height)}}});
+  }
+  return all;
+}
+
 Extras scene_extras(const Document& document) {
   const Vec2 size = document.terrain->size_m();
   Extras extras{{"site_east_m", static_cast<double>(size.x)},  {"site_north_m", static_cast<double>(size.y)},
@@ -216,7 +261,6 @@ std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, con
 
 Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& options, Progress* progress) {
   const Document& document = scene.document;
-  const std::vector<Tree>& trees = *document.trees;
   BuiltModel built;
   Model& model = built.model;
 
@@ -251,19 +295,19 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   }
 
   // What each tree is drawn with, and what its full mesh needs.
+  std::vector<Drawn> trees = drawn_trees(scene);
   std::vector<std::vector<float>> radii(trees.size());
   std::vector<geometry::MeshOptions> mesh_options(trees.size());
   std::vector<std::size_t> need(trees.size());
   std::vector<float> weight(trees.size());
   parallel_for(trees.size(), [&](std::size_t i) {
-    const GrownTree& grown = scene.trees[i];
-    const Species& species = document.species_of(trees[i]);
-    radii[i] = grown.season < 0 ? grown.skeleton->radius : growth::radii(*grown.skeleton, grown.season);
-    mesh_options[i] = {grown.season, options.season, options.foliage, 0, document.seed, trees[i].key};
+    const Drawn& tree = trees[i];
+    const Species& species = *document.species[tree.species];
+    radii[i] = tree.season < 0 ? tree.skeleton->radius : growth::radii(*tree.skeleton, tree.season);
+    mesh_options[i] = {tree.season, options.season, options.foliage, 0, document.seed, tree.key};
     need[i] =
-        geometry::estimate_triangles(*grown.skeleton, radii[i], species.look, species.foliage, mesh_options[i]) * 3 / 2;
-    const Vec3 base = to_world(trees[i].at, document.terrain->ground(trees[i].at));
-    const float apparent = apparent_size(document, base, grown.measures.height_m);
+        geometry::estimate_triangles(*tree.skeleton, radii[i], species.look, species.foliage, mesh_options[i]) * 3 / 2;
+    const float apparent = apparent_size(document, tree.base, tree.height_m);
     weight[i] = apparent * apparent * apparent;
   });
   std::vector<std::size_t> budget(trees.size(), 0);
@@ -276,16 +320,16 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   std::vector<float> costs(need.begin(), need.end());
   parallel_dearest_first(costs, [&](std::size_t i) {
     if (progress && progress->cancelled()) return;
-    const Species& species = document.species_of(trees[i]);
+    const Species& species = *document.species[trees[i].species];
     mesh_options[i].max_triangles = budget[i];
     geometry::TreeMesh mesh =
-        geometry::build_tree_mesh(*scene.trees[i].skeleton, radii[i], species.look, species.foliage, mesh_options[i]);
+        geometry::build_tree_mesh(*trees[i].skeleton, radii[i], species.look, species.foliage, mesh_options[i]);
     cards[i] = mesh.leaves.triangles() /
                std::max<std::size_t>(1, geometry::triangles_per_site(species.foliage, options.foliage));
     Node& node = nodes[i];
-    node.name = fmt::format("{}-{}", species.name, trees[i].id);
-    node.translation = to_world(trees[i].at, document.terrain->ground(trees[i].at));
-    node.extras = tree_extras(document, trees[i], scene.trees[i]);
+    node.name = std::move(trees[i].name);
+    node.translation = trees[i].base;
+    node.extras = std::move(trees[i].extras);
     if (!mesh.branches.empty())
       node.parts.push_back(
           {std::make_shared<const TriangleMesh>(std::move(mesh.branches)), material_of(trees[i].species, kBark)});

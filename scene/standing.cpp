@@ -15,7 +15,9 @@ constexpr std::size_t kListed = 8;
 std::string name_of(const Document& document, std::int32_t id) {
   for (const Obstacle& o : document.obstacles)
     if (o.id == id) return fmt::format("obstacle '{}'", o.name);
-  return fmt::format("hero tree {}", id);
+  for (const HeroTree& h : document.heroes)
+    if (h.id == id) return fmt::format("hero tree '{}'", h.name);
+  return fmt::format("id {}", id);
 }
 
 }  // namespace
@@ -35,6 +37,14 @@ Result<crowns::Standing> standing(const Document& document, std::vector<std::str
     }
     if (!volume.warning.empty()) warnings.push_back(fmt::format("obstacle '{}': {}", o.name, volume.warning));
     out.obstacles.push_back({o.id, o.name, std::make_shared<const crowns::ObstacleVolume>(std::move(volume))});
+  }
+  for (const HeroTree& h : document.heroes) {
+    const Vec3 foot = to_world(h.at, document.terrain->ground(h.at));
+    std::vector<Segment> wood;
+    for (std::size_t i = 0; i < h.skeleton->size(); ++i)
+      if (h.skeleton->alive(i))
+        wood.push_back({foot + h.skeleton->proximal(i), foot + h.skeleton->distal[i], h.skeleton->radius[i]});
+    out.heroes.push_back({h.id, h.name, std::make_shared<const std::vector<Segment>>(std::move(wood))});
   }
   return out;
 }

@@ -13,7 +13,7 @@
 
 namespace bosquet::scene {
 
-/// Obstacles as voxels, near the site.
+/// Obstacles as voxels, near the site; hero trees as their living wood.
 Result<crowns::Standing> standing(const Document& document, std::vector<std::string>& warnings);
 
 /// Trees that stand in obstacles or trunks, and what stands off the site, in words.
