@@ -5,6 +5,8 @@
 // Counters     ns_per_voxel: time over claimed voxels
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
+
 #include "core/parallel.h"
 #include "core/random.h"
 #include "crowns/asymmetry.h"
@@ -96,6 +98,18 @@ void hectares(benchmark::State& state) {
   count(state, space);
 }
 BENCHMARK(hectares)->Arg(16)->Arg(50)->Arg(158)->ArgName("side_m")->Unit(benchmark::kMillisecond);
+
+// 10^8 voxels take half a minute: only when BOSQUET_BENCH_LARGE is set.
+const bool large = [] {
+  if (std::getenv("BOSQUET_BENCH_LARGE"))
+    benchmark::RegisterBenchmark("hectares_large", hectares)
+        ->Arg(500)
+        ->Arg(660)
+        ->ArgName("side_m")
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(1);
+  return true;
+}();
 
 // Ten thousand trees on ten hectares, the whole, and one tree moved a metre; `voxels` are those that it claimed.
 struct TenHectares {

@@ -145,6 +145,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
 
   CLI::App* make =
       app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb .tree.json");
+  make->alias("export");
   make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
   make->add_option("-o,--output", o.outputs, "Output; may be given several times")
       ->required()

@@ -136,8 +136,9 @@ std::vector<distribution::Species> planting_species(const scene::Document& docum
 
 class Planter {
  public:
-  Planter(const Recipe& recipe, Planting& planting, std::vector<std::string>& warnings, Progress* progress)
-      : recipe_(recipe), planting_(planting), warnings_(warnings), progress_(progress) {}
+  Planter(const Recipe& recipe, const terrain::Terrain& ground, Planting& planting, std::vector<std::string>& warnings,
+          Progress* progress)
+      : recipe_(recipe), ground_(ground), planting_(planting), warnings_(warnings), progress_(progress) {}
 
   Result<void> plant(const PlantingRecipe& block) {
     distribution::Sowing what{recipe_.document.seed, hash_text(block.name), 0, block.mix};
@@ -212,8 +213,13 @@ class Planter {
 
   void plant_single(const PlantingRecipe& block) {
     const std::uint64_t key = distribution::tree_key(hash_text(block.name), 0);
-    const auto refusal = distribution::plant_one(planting_, key, block.mix.front().species, block.at, block.scale);
-    if (refusal == distribution::Refusal::none)
+    const std::uint32_t species = block.mix.front().species;
+    const auto refusal = distribution::plant_one(planting_, key, species, block.at, block.scale);
+    // A tree that is set into a building by hand stays, and is warned about when the space is divided.
+    const bool in_building = refusal == distribution::Refusal::excluded && !ground_.excluded(block.at);
+    if (in_building)
+      planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, block.scale));
+    if (refusal == distribution::Refusal::none || in_building)
       add(*planting_.find(key));
     else
       warnings_.push_back(fmt::format("planting '{}': left out at ({:.1f}, {:.1f}): {}", block.name, block.at.x,
@@ -283,6 +289,7 @@ class Planter {
   }
 
   const Recipe& recipe_;
+  const terrain::Terrain& ground_;  // without the buildings
   Planting& planting_;
   std::vector<std::string>& warnings_;
   Progress* progress_;
@@ -305,9 +312,13 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
   built.seconds["terrain"] = watch.restart();
 
   if (progress) progress->begin("planting", 0);
-  auto planting = Planting::make(*document.terrain, planting_species(document), recipe.interactions);
+  // Nothing is sown into buildings.
+  terrain::Terrain plantable = *document.terrain;
+  for (const scene::Obstacle& o : document.obstacles)
+    if (o.outline) plantable = terrain::exclude(plantable, *o.outline);
+  auto planting = Planting::make(plantable, planting_species(document), recipe.interactions);
   if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
-  Planter planter(recipe, *planting, built.warnings, progress);
+  Planter planter(recipe, *document.terrain, *planting, built.warnings, progress);
   for (const PlantingRecipe& block : recipe.plantings) {
     if (auto done = planter.plant(block); !done) return done.error();
     if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");

@@ -172,6 +172,17 @@ TEST(RecipeObstacle, TreesInsideAndObstaclesOffTheSiteAreWarnedAbout) {
   EXPECT_LT(grown->trees[0].measures.crown_diameter_m, grown->trees[1].measures.crown_diameter_m);
 }
 
+TEST(RecipeObstacle, NothingIsSownIntoBuildings) {
+  const ScratchFolder folder;
+  const auto built = build(folder,
+                           "[[obstacle]]\npolygon = [[10, 5], [50, 5], [50, 35], [10, 35]]\n"
+                           "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 60\nscale = [0.1, 0.2]\n");
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_EQ(built->document.trees->size(), 60u);
+  for (const scene::Tree& tree : *built->document.trees)
+    EXPECT_FALSE(tree.at.x > 10.6f && tree.at.x < 49.4f && tree.at.y > 5.6f && tree.at.y < 34.4f);
+}
+
 TEST(RecipeObstacle, MistakesAreToldBeforeAnyWork) {
   const ScratchFolder folder;
   const auto mistake = [&](const std::string& text) {
