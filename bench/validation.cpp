@@ -4,6 +4,7 @@
 // lansing       the same for the real trees of Lansing Woods
 // crown_bases   where living crowns begin in closed stands of one species, with canopy light on and off, beside
 //               regional yield models
+// thresholds    the same at CCF 300 for other shedding thresholds, beside what they do to a tree in the open
 //
 // Usage         validation [FILE.md] [TABLE...]: prints the tables asked for (default: all), or writes each between
 //               its marks <!-- TABLE --> and <!-- /TABLE --> in FILE.md
@@ -272,10 +273,55 @@ std::string crown_bases() {
   return out;
 }
 
+// ---------------------------------------------------------------------------------- what other thresholds would do
+
+std::string thresholds() {
+  constexpr double kCcf = 300.0;
+  const std::vector<std::pair<const char*, std::vector<float>>> trials{
+      {"english_oak", {0.33f}},    {"silver_birch", {0.13f}},       {"norway_spruce", {0.6f}},
+      {"european_beech", {0.25f}}, {"norway_maple", {0.35f, 0.5f}}, {"small_leaved_lime", {0.25f}}};
+  std::string out =
+      "| species | shedding_threshold | crown base m | crown ratio | model's ratio | crown width m | in the open: "
+      "crown "
+      "base m | crown width m |\n|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [name, values] : trials) {
+    const auto* model = std::find_if(std::begin(kModels), std::end(kModels),
+                                     [&](const YieldModel& m) { return name == std::string(m.species); });
+    scene::Document stand = closed_stand(*model, kCcf);
+    const scene::Species own = *stand.species[0];
+    std::vector<float> tried{own.growth.shedding_threshold};
+    tried.insert(tried.end(), values.begin(), values.end());
+    for (const float threshold : tried) {
+      scene::Species species = own;
+      species.growth.shedding_threshold = threshold;
+      stand.species = {std::make_shared<const scene::Species>(species)};
+      const StandMeasures m = measure_stand(stand, true);
+
+      // Five trees of full size in the open, one after the other.
+      constexpr int kLone = 5;
+      double base = 0, crown = 0;
+      for (int n = 0; n < kLone; ++n) {
+        scene::Document lone = stand;
+        scene::Tree tree;
+        tree.id = 1;
+        tree.key = mix_bits(static_cast<std::uint64_t>(n) + 77);
+        tree.at = 0.5f * lone.terrain->size_m();
+        lone.trees = std::make_shared<const std::vector<scene::Tree>>(std::vector{tree});
+        const growth::Measures measures = grow(lone, kShaded).trees[0].measures;
+        base += measures.crown_base_m / kLone, crown += measures.crown_diameter_m / kLone;
+      }
+      out += fmt::format("| {} | {:g}{} | {:.1f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} |\n", name, threshold,
+                         threshold == own.growth.shedding_threshold ? " (its own)" : "", m.base,
+                         1.0 - m.base / m.height, 0.5 * (model->ratio[0] + model->ratio[1]), m.crown, base, crown);
+    }
+  }
+  return out;
+}
+
 // --------------------------------------------------------------------------------------------------------- the page
 
 const std::vector<std::pair<std::string, std::function<std::string()>>> kTables{
-    {"uniformity", uniformity}, {"lansing", lansing}, {"crown_bases", crown_bases}};
+    {"uniformity", uniformity}, {"lansing", lansing}, {"crown_bases", crown_bases}, {"thresholds", thresholds}};
 
 // Puts a table between its marks.
 void insert(std::string& page, const std::string& name, const std::string& table) {
