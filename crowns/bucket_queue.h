@@ -36,15 +36,7 @@ class BucketQueue {
     const std::uint64_t unit = tick >> shift_;
     assert(unit >= now_);
     if (unit == now_) return insert_now({tick, cell});
-    std::uint32_t n = free_;
-    if (n == kNone) {
-      n = static_cast<std::uint32_t>(nodes_.size());
-      nodes_.emplace_back();
-    } else {
-      free_ = nodes_[n].next;
-    }
-    nodes_[n] = {tick, cell, kNone};
-    link(n, unit);
+    put({tick, cell}, unit);
   }
 
   /// The next entry; the queue must not be empty.
@@ -63,9 +55,11 @@ class BucketQueue {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kDigits = 256, kLevels = 8;
-  struct Node {
-    std::uint64_t tick;
-    std::uint32_t cell, next;
+  // Entries of a bucket lie side by side, so that dealing them out reads memory in order.
+  static constexpr std::uint32_t kChunk = 15;
+  struct Chunk {
+    std::array<Entry, kChunk> entries;
+    std::uint32_t count, next;
   };
 
   static bool before(const Entry& a, const Entry& b) {
@@ -79,14 +73,29 @@ class BucketQueue {
     present_[i] = entry;
   }
 
-  void link(std::uint32_t n, std::uint64_t unit) {
+  void put(const Entry& entry, std::uint64_t unit) {
     const std::uint64_t differs = unit ^ now_;
     const std::size_t level = differs == 0 ? 0 : (static_cast<std::size_t>(std::bit_width(differs)) - 1) / 8;
-    const std::size_t digit = (unit >> (8 * level)) & (kDigits - 1);
+    const auto digit = static_cast<std::size_t>((unit >> (8 * level)) & (kDigits - 1));
     std::uint32_t& head = heads_[level * kDigits + digit];
-    nodes_[n].next = head;
-    head = n;
+    if (head == kNone || chunks_[head].count == kChunk) head = fresh(head);
+    Chunk& chunk = chunks_[head];
+    chunk.entries[chunk.count++] = entry;
     filled_[level * 4 + digit / 64] |= std::uint64_t{1} << (digit % 64);
+  }
+
+  // An empty chunk in front of `next`.
+  std::uint32_t fresh(std::uint32_t next) {
+    std::uint32_t n = free_;
+    if (n == kNone) {
+      n = static_cast<std::uint32_t>(chunks_.size());
+      chunks_.emplace_back();
+    } else {
+      free_ = chunks_[n].next;
+    }
+    chunks_[n].count = 0;
+    chunks_[n].next = next;
+    return n;
   }
 
   // Takes the first bucket of a level off its place; kNone when the level is empty.
@@ -115,20 +124,24 @@ class BucketQueue {
       const std::uint64_t below = (std::uint64_t{1} << (8 * level)) - 1,
                           here = std::uint64_t{kDigits - 1} << (8 * level);
       now_ = (now_ & ~(below | here)) | (std::uint64_t{digit} << (8 * level));
-      if (level == 0) {
-        while (n != kNone) {
-          const Node node = nodes_[n];
-          nodes_[n].next = free_, free_ = n;
-          present_.push_back({node.tick, node.cell});
-          n = node.next;
+      while (n != kNone) {
+        const std::uint32_t count = chunks_[n].count, next = chunks_[n].next;
+        if (level == 0) {
+          const Entry* first = chunks_[n].entries.data();
+          present_.insert(present_.end(), first, first + count);
+        } else {
+          // By index, as putting entries may move the chunks.
+          for (std::uint32_t e = 0; e < count; ++e) {
+            const Entry entry = chunks_[n].entries[e];
+            put(entry, entry.tick >> shift_);
+          }
         }
+        chunks_[n].next = free_, free_ = n;
+        n = next;
+      }
+      if (level == 0) {
         std::sort(present_.begin(), present_.end(), before);
         return;
-      }
-      while (n != kNone) {
-        const std::uint32_t next = nodes_[n].next;
-        link(n, nodes_[n].tick >> shift_);
-        n = next;
       }
       level = 0;
     }
@@ -139,7 +152,7 @@ class BucketQueue {
   std::uint64_t now_ = 0;
   std::size_t size_ = 0, cursor_ = 0;
   std::vector<Entry> present_;
-  std::vector<Node> nodes_;
+  std::vector<Chunk> chunks_;
   std::uint32_t free_ = kNone;
   std::array<std::uint32_t, kDigits * kLevels> heads_;
   std::array<std::uint64_t, 4 * kLevels> filled_{};
