@@ -273,13 +273,13 @@ std::string crown_bases() {
   return out;
 }
 
-// ---------------------------------------------------------------------------------- what other thresholds would do
+// ---------------------------------------------------------------------------------- what lower thresholds would do
 
 std::string thresholds() {
   constexpr double kCcf = 300.0;
   const std::vector<std::pair<const char*, std::vector<float>>> trials{
-      {"english_oak", {0.33f}},    {"silver_birch", {0.13f}},       {"norway_spruce", {0.6f}},
-      {"european_beech", {0.25f}}, {"norway_maple", {0.35f, 0.5f}}, {"small_leaved_lime", {0.25f}}};
+      {"english_oak", {0.15f}},    {"silver_birch", {0.1f}}, {"norway_spruce", {0.5f}},
+      {"european_beech", {0.07f}}, {"norway_maple", {0.1f}}, {"small_leaved_lime", {0.1f}}};
   std::string out =
       "| species | shedding_threshold | crown base m | crown ratio | model's ratio | crown width m | in the open: "
       "crown "
