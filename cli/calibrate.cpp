@@ -198,6 +198,12 @@ Result<void> run_calibrate(const Options& options) {
   if (names.size() > 1 && !output.empty() && !folder)
     return Error{fmt::format("{}: must be a folder for the files of {} species", output.string(), names.size())};
 
+  if (!options.outputs.empty() && !folder && output.extension() != ".toml")
+    return Error{fmt::format("'{}': must end in .toml, or be a folder", output.string())};
+  const std::filesystem::path parent = output.parent_path();
+  if (!parent.empty() && !std::filesystem::is_directory(parent, ec))
+    return Error{fmt::format("cannot write {}: there is no folder {}", output.string(), parent.string())};
+
   Progress progress;
   ProgressDisplay display(progress, true);
   std::vector<std::string> failed, unknown;

@@ -39,7 +39,8 @@ function(bosquet_test name)
   target_compile_definitions(${name}_test PRIVATE BOSQUET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   include(GoogleTest)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${arg_LABELS}" ENVIRONMENT "RC_PARAMS=seed=20140901")
+    PROPERTIES LABELS "${arg_LABELS}" ENVIRONMENT "RC_PARAMS=seed=20140901"
+               ENVIRONMENT_MODIFICATION "LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/tests/leaks.supp")
 endfunction()
 
 # bosquet_bench(growth SOURCES growth_bench.cpp LINK bosquet::growth) makes the program growth_bench.

@@ -20,8 +20,8 @@ constexpr float kBand = 2.0f;
 constexpr float kMargin = 0.5f - 1e-3f;
 // A surface without thickness may run exactly between two voxels: both are taken, lest it have holes.
 constexpr float kSurfaceMargin = 0.5f + 1e-3f;
-// A surface of so many voxels is 12 km2 at 0.25 m: the unit is wrong.
-constexpr double kMostVoxels = 2e8, kFarthest = 1e9;
+// A surface of so many voxels is a square kilometre at 0.25 m, and so long a mesh 25 km: the unit is wrong, or a vertex.
+constexpr double kMostVoxels = 2e7, kLongest = 1e5, kFarthest = 1e9;
 
 // A mesh in voxels: x east, y up, z north, whole numbers at centres. Mirrored, which OpenVDB does not mind. Coordinates
 // are counted from `origin`, so that floats hold them to a thousandth of a voxel.
@@ -55,13 +55,18 @@ Result<void> check(const TriangleMesh& mesh, VoxelSize size) {
   for (const Vec3& p : mesh.positions)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return Error{"a vertex is not a number"};
   double area = 0;
+  DVec3 low{kFarthest}, high{-kFarthest};
   for (std::size_t t = 0; t < mesh.triangles(); ++t) {
     const auto corner = [&](std::size_t n) { return in_voxels(mesh.positions[mesh.indices[3 * t + n]], size); };
     const DVec3 a = corner(0), b = corner(1), c = corner(2);
     if (std::fabs(a.x) > kFarthest || std::fabs(a.y) > kFarthest || std::fabs(a.z) > kFarthest)
       return Error{"it lies thousands of kilometres away; is its unit metres?"};
     area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    low = glm::min(low, glm::min(a, glm::min(b, c))), high = glm::max(high, glm::max(a, glm::max(b, c)));
   }
+  const DVec3 extent = high - low;
+  if (const double longest = std::max({extent.x, extent.y, extent.z}); longest > kLongest)
+    return Error{fmt::format("it is {:.2g} voxels long, more than {:.2g}; is its unit metres?", longest, kLongest)};
   if (area > kMostVoxels)
     return Error{
         fmt::format("its surface would take {:.2g} voxels, more than {:.2g}; is its unit metres?", area, kMostVoxels)};

@@ -14,7 +14,7 @@ namespace bosquet::crowns {
 /// from the lowest up; runs end at tile borders.
 template <class VisitRun>
 void for_each_run(const CrownSpace& space, std::size_t claimant, const VisitRun& visit_run) {
-  const auto me = static_cast<std::int32_t>(claimant);
+  const std::int32_t me = space.slot_of(claimant);
   for (const LayerShare& share : space.shares(claimant))
     for (std::int32_t north = share.low.y >> 6; north <= share.high.y >> 6; ++north)
       for (std::int32_t east = share.low.x >> 6; east <= share.high.x >> 6; ++east) {

@@ -65,9 +65,13 @@ std::optional<Polygon> outline_of(const OGRPolygon& polygon, DVec2 south_west) {
   for (int i = 0; i < polygon.getNumInteriorRings(); ++i)
     if (auto hole = ring_of(*polygon.getInteriorRing(i), south_west); hole.size() >= 3)
       out.holes.push_back(std::move(hole));
-  const bool finite =
-      std::all_of(out.ring.begin(), out.ring.end(), [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); });
-  if (out.ring.size() < 3 || !finite) return {};
+  // Not a number, or so far away that metres are lost in a float.
+  constexpr float kFarthest_m = 1e6f;
+  const auto usable = [](const std::vector<Vec2>& ring) {
+    return std::all_of(ring.begin(), ring.end(),
+                       [](Vec2 p) { return std::fabs(p.x) <= kFarthest_m && std::fabs(p.y) <= kFarthest_m; });
+  };
+  if (out.ring.size() < 3 || !usable(out.ring) || !std::all_of(out.holes.begin(), out.holes.end(), usable)) return {};
   return out;
 }
 

@@ -138,6 +138,9 @@ class GltfReader {
   Result<void> visit(int index, const glm::dmat4& above, int depth) {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) return damaged("a node that is not there");
     if (depth > kMostDepth) return damaged("nodes nested too deep, or in a ring");
+    if (visited_.empty()) visited_.resize(model_.nodes.size());
+    if (visited_[static_cast<std::size_t>(index)]) return damaged("a node with two parents");
+    visited_[static_cast<std::size_t>(index)] = true;
     const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
     const glm::dmat4 here = above * matrix(node);
     if (node.mesh >= 0) {
@@ -235,6 +238,7 @@ class GltfReader {
   std::filesystem::path path_;
   std::string name_;
   tinygltf::Model model_;
+  std::vector<bool> visited_;  ///< by node
   Soup soup_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "scene/species_names.h"
@@ -297,9 +298,16 @@ class Reader {
   void read_obstacle(TomlTable& table) {
     ObstacleRecipe obstacle;
     obstacle.name = table.text("name").value_or(fmt::format("obstacle {}", recipe_.obstacles.size() + 1));
-    if (auto file = table.text("file")) obstacle.file = folder_ / *file;
+    if (auto file = table.text("file")) {
+      if (file->empty()) table.error("file", "needs the name of a .glb, .gltf, .obj or outline file");
+      obstacle.file = folder_ / *file;
+    }
     if (auto ring = table.points("polygon")) {
       if (ring->size() < 3) table.error("polygon", "a polygon needs at least three points");
+      constexpr float kFarthest_m = 1e6f;
+      for (const Vec2& p : *ring)
+        if (std::fabs(p.x) > kFarthest_m || std::fabs(p.y) > kFarthest_m)
+          table.error("polygon", "a point lies more than 1000 km away");
       obstacle.outline = std::move(*ring);
     }
     if (table.has("file") == table.has("polygon"))

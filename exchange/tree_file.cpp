@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kFormat = 1, kMostDepth = 8;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 constexpr std::size_t kMostInternodes = 5'000'000;
-constexpr double kMostSize_m = 1000.0, kMostNumber = 1e9;
+constexpr double kMostSize_m = 1000.0, kMostRadius_m = 5.0, kMostNumber = 1e9;
 
 // Described parameters as JSON.
 struct Writer {
@@ -138,7 +138,7 @@ class Reader {
     if (!problem.empty()) return wrong(problem);
     for (std::size_t i = 0; i < n; ++i) {
       if (s.parent[i] < -1 || s.parent[i] >= static_cast<std::int32_t>(i)) return wrong(element("parent", i));
-      if (s.radius[i] < 0 || static_cast<double>(s.radius[i]) > kMostSize_m) return wrong(element("radius", i));
+      if (s.radius[i] < 0 || static_cast<double>(s.radius[i]) > kMostRadius_m) return wrong(element("radius", i));
     }
     float seasons = 0;
     if (!real(json, "seasons", 0, 65534, seasons) ||
