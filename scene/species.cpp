@@ -65,8 +65,13 @@ void read_species_tables(TomlTable& table, Species& species) {
   }
   if (auto t = table.table("planting")) describe(species.planting, *t), t->finish();
   if (auto t = table.table("growth")) describe(species.growth, *t), t->finish(), check_growth(*t, species.growth);
-  if (auto t = table.table("look"))
+  if (auto t = table.table("look")) {
     describe(species.look, *t), geometry::describe_foliage(species.foliage, *t), t->finish();
+    const geometry::LeafLook& leaf = species.look.leaf;
+    if ((leaf.outline == geometry::LeafOutline::needle_spray) != (leaf.cluster == geometry::ClusterForm::spray))
+      t->error(t->has("twig_form") ? "twig_form" : "leaf_outline",
+               "leaf_outline = \"needle_spray\" and twig_form = \"spray\" go only together");
+  }
   if (auto t = table.table("allometry")) describe(species.allometry, *t), t->finish();
   if (auto sizes = read_sizes(table.tables("size")); !sizes.empty()) species.sizes = std::move(sizes);
 }
