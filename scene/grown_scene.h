@@ -1,7 +1,7 @@
 // Grown scene: a document with everything its trees have become.
 //
-// Model     divide_space, asymmetry, canopy light, then every tree grown alone and in parallel (Longay 2014, 6.1); the stages of the
-//           source's comparisons can be switched off one by one
+// Model     divide_space, asymmetry, canopy light, then every tree grown alone and in parallel (Longay 2014, 6.1); the
+//           stages of the source's comparisons can be switched off one by one
 // Holds     the same document and options give the same skeletons for any number of threads
 // Errors    a crown space too large for memory; cancelled work (kind cannot_finish)
 #pragma once
