@@ -220,7 +220,7 @@ scene::Document closed_stand(const YieldModel& model, double ccf) {
     scene::set_measured_size(tree, *document.species[0], kHeight * size, kTrunk * size, {});
     trees.push_back(tree);
   }
-  document.trees = std::make_shared<const std::vector<scene::Tree>>(std::move(trees));
+  document.trees = std::make_shared<const scene::Trees>(std::move(trees));
   return document;
 }
 
@@ -306,7 +306,7 @@ std::string thresholds() {
         tree.id = 1;
         tree.key = mix_bits(static_cast<std::uint64_t>(n) + 77);
         tree.at = 0.5f * lone.terrain->size_m();
-        lone.trees = std::make_shared<const std::vector<scene::Tree>>(std::vector{tree});
+        lone.trees = std::make_shared<const scene::Trees>(std::vector{tree});
         const growth::Measures measures = grow(lone, kShaded).trees[0].measures;
         base += measures.crown_base_m / kLone, crown += measures.crown_diameter_m / kLone;
       }

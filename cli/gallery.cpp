@@ -232,7 +232,7 @@ scene::GrownScene row_scene(const Row& row, const std::vector<Place>& places, bo
     grown.age_years = place.stage->age_years;
     scene.trees.push_back(std::move(grown));
   }
-  document.trees = std::make_shared<const std::vector<scene::Tree>>(std::move(trees));
+  document.trees = std::make_shared<const scene::Trees>(std::move(trees));
   return scene;
 }
 

@@ -323,7 +323,7 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
     if (auto done = planter.plant(block); !done) return done.error();
     if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
   }
-  document.trees = std::make_shared<const std::vector<scene::Tree>>(std::move(planter.trees));
+  document.trees = std::make_shared<const scene::Trees>(std::move(planter.trees));
   if (document.trees->empty() && !recipe.plantings.empty())
     return Error{fmt::format("{}: no tree could be planted{}{}", recipe.file.string(),
                              built.warnings.empty() ? "" : ": ", built.warnings.empty() ? "" : built.warnings.back())};

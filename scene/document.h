@@ -3,8 +3,6 @@
 // Model     parts are shared and immutable: a copy costs a few pointers, an edit replaces the part that it touches. All
 //           that can be computed (regions, skeletons, meshes) is not in it.
 // Frame     plan (east, north) metres from the site's south-west corner
-// Identity  a tree's `id` names it (nodes, grids) and is never reused; its `key` feeds its random streams and settles
-//           ties, so adding or removing one tree changes no other
 #pragma once
 
 #include <algorithm>
@@ -21,21 +19,10 @@
 #include "scene/model.h"
 #include "scene/obstacle.h"
 #include "scene/species.h"
+#include "scene/trees.h"
 #include "terrain/terrain.h"
 
 namespace bosquet::scene {
-
-struct Tree {
-  std::int32_t id = 0;  ///< 1, 2, ...
-  std::uint64_t key = 0;
-  std::size_t species = 0;  ///< index into Document::species
-  Vec2 at{0.0f};            ///< plan
-  float scale_height = 1.0f, scale_width = 1.0f;
-  std::optional<float> trunk_diameter_m;  ///< given at 1.3 m; missing: as thick as it grows
-  bool measured = false;                  ///< the size is what it has today, not what it will have
-  std::string inventory_name;             ///< what an inventory called its kind
-  std::string inventory_id;
-};
 
 /// Where the site lies on earth.
 struct Georeference {
@@ -49,7 +36,7 @@ struct Document {
   Georeference place;
   std::shared_ptr<const terrain::Terrain> terrain;
   std::vector<std::shared_ptr<const Species>> species;
-  std::shared_ptr<const std::vector<Tree>> trees;
+  std::shared_ptr<const Trees> trees;
   std::vector<Obstacle> obstacles;
   std::vector<HeroTree> heroes;
   crowns::SpaceOptions space;

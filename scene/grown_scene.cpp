@@ -94,7 +94,7 @@ std::vector<crowns::Claimant> claimants(const Document& document) {
 Result<GrownScene> grow_scene(const Document& document, const GrowOptions& options, Progress* progress) {
   GrownScene scene;
   scene.document = document;
-  const std::vector<Tree>& trees = *document.trees;
+  const Trees& trees = *document.trees;
   const Error cancelled = cannot_finish("cancelled; nothing was written");
 
   Stopwatch watch;

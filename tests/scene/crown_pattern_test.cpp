@@ -28,9 +28,9 @@ Document clustered(std::uint64_t seed) {
     if (free) places.push_back(at);
   }
   Document document = sample_document("silver_birch", places, {kSide, kSide}, 0.5f);
-  std::vector<Tree> trees = *document.trees;
+  std::vector<Tree> trees = document.trees->to_vector();
   for (Tree& tree : trees) tree.scale_height = tree.scale_width = draw.uniform(0.3f, 0.8f);
-  document.trees = std::make_shared<const std::vector<Tree>>(std::move(trees));
+  document.trees = std::make_shared<const Trees>(std::move(trees));
   document.space.overhang_m = 0.0f;
   return document;
 }

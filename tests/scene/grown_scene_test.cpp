@@ -77,9 +77,9 @@ TEST(GrownScene, AtTheAgeThatItIsSaidToHaveATreeIsAsItIs) {
   for (const bool measured : {false, true}) {
     for (const float scale : {0.1f, 0.5f, 0.8f, 1.0f}) {
       Document document = sample_document("silver_birch", {{9, 9}}, {18, 18}, scale);
-      std::vector<Tree> trees = *document.trees;
+      std::vector<Tree> trees = document.trees->to_vector();
       trees[0].measured = measured;
-      document.trees = std::make_shared<const std::vector<Tree>>(trees);
+      document.trees = std::make_shared<const Trees>(trees);
       const GrownScene today = grow(document);
       GrowOptions at;
       at.year = today.trees[0].age_years;
@@ -112,9 +112,9 @@ TEST(GrownScene, AtAnEarlierYearTreesAreSmallerAndAtLaterOnesTaller) {
 
 TEST(GrownScene, AGivenTrunkDiameterIsMet) {
   Document document = sample_document("english_oak", {{9, 9}}, {18, 18}, 0.6f);
-  std::vector<Tree> trees = *document.trees;
+  std::vector<Tree> trees = document.trees->to_vector();
   set_measured_size(trees[0], *document.species[0], 14.0f, 0.45f, {});
-  document.trees = std::make_shared<const std::vector<Tree>>(trees);
+  document.trees = std::make_shared<const Trees>(trees);
   const growth::Measures m = grow(document).trees[0].measures;
   EXPECT_NEAR(m.trunk_diameter_m, 0.45f, 0.005f);
   EXPECT_NEAR(m.height_m, 14.0f, 1.4f);

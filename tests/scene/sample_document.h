@@ -34,7 +34,7 @@ inline Document sample_document(const std::string& species, const std::vector<Ve
     tree.scale_height = tree.scale_width = scale;
     trees.push_back(tree);
   }
-  document.trees = std::make_shared<const std::vector<Tree>>(std::move(trees));
+  document.trees = std::make_shared<const Trees>(std::move(trees));
   return document;
 }
 

@@ -32,10 +32,10 @@ GrownScene grow(const Document& document, SkeletonCache* cache, float detail = 1
 
 template <class Edit>
 Document edited(const Document& document, std::size_t tree, const Edit& edit) {
-  std::vector<Tree> trees = *document.trees;
+  std::vector<Tree> trees = document.trees->to_vector();
   edit(trees[tree]);
   Document after = document;
-  after.trees = std::make_shared<const std::vector<Tree>>(std::move(trees));
+  after.trees = std::make_shared<const Trees>(std::move(trees));
   return after;
 }
 
