@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "core/vec.h"
+#include "crowns/clipped_form.h"
 
 namespace bosquet::scene {
 
@@ -27,6 +28,8 @@ struct Tree {
   Vec2 at{0.0f};            ///< plan
   float scale_height = 1.0f, scale_width = 1.0f;
   std::optional<float> trunk_diameter_m;  ///< given at 1.3 m; missing: as thick as it grows
+  float clear_stem_m = 0.0f;              ///< below it no branch grows
+  crowns::ClippedForm form;               ///< that it is kept cut to
   bool measured = false;                  ///< the size is what it has today, not what it will have
   TreeStatus status = TreeStatus::proposed;
   std::string inventory_name;  ///< what an inventory called its kind
