@@ -114,82 +114,173 @@ Shader shader_of(const scene::Material& material) {
   return Shader::solid;
 }
 
+// Textures, each image once per use; their levels are made in parallel, then uploaded.
+class TextureLoader {
+ public:
+  explicit TextureLoader(const std::vector<scene::Material>& materials) {
+    for (const scene::Material& m : materials) {
+      want(m.base_colour, TextureKind::colour, cutoff(m), !m.mask);
+      want(m.normal, TextureKind::normal, 0.0f, !m.mask);
+    }
+  }
+
+  void load(std::vector<GlTexture>& textures) {
+    std::vector<std::vector<Image>> chains(uses_.size());
+    parallel_for(uses_.size(), [&](std::size_t i) {
+      const auto& [image, kind, cutoff, anisotropic] = uses_[i];
+      chains[i] = mip_chain(*image, kind, cutoff);
+    });
+    for (std::size_t i = 0; i < uses_.size(); ++i) {
+      const auto& [image, kind, cutoff, anisotropic] = uses_[i];
+      textures.push_back(upload_chain(chains[i], kind == TextureKind::colour, anisotropic));
+      names_.push_back(textures.back().name());
+      chains[i] = {};
+    }
+  }
+
+  GpuMaterial material(const scene::Material& m) const {
+    GpuMaterial out;
+    out.shader = shader_of(m);
+    out.base_colour = name({m.base_colour.get(), TextureKind::colour, cutoff(m), !m.mask});
+    out.normal = name({m.normal.get(), TextureKind::normal, 0.0f, !m.mask});
+    out.base_factor = m.base_factor;
+    out.roughness = std::clamp(m.roughness, 0.05f, 1.0f);
+    out.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
+    out.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
+    out.double_sided = m.double_sided;
+    return out;
+  }
+
+ private:
+  // Image, what it holds, where its alpha is cut, whether it is seen at grazing angles.
+  using Use = std::tuple<const Image*, TextureKind, float, bool>;
+
+  static float cutoff(const scene::Material& m) { return m.mask ? m.alpha_cutoff : 0.0f; }
+
+  void want(const std::shared_ptr<const Image>& image, TextureKind kind, float cutoff, bool anisotropic) {
+    if (!image || image->empty()) return;
+    const Use use{image.get(), kind, cutoff, anisotropic};
+    if (index_of_.try_emplace(use, uses_.size()).second) uses_.push_back(use);
+  }
+  GLuint name(const Use& use) const {
+    const auto found = index_of_.find(use);
+    return found == index_of_.end() ? 0 : names_[found->second];
+  }
+
+  std::map<Use, std::size_t> index_of_;
+  std::vector<Use> uses_;
+  std::vector<GLuint> names_;
+};
+
+void forget_gl_errors() {
+  while (glGetError() != GL_NO_ERROR) {
+  }
+}
+
+Result<void> check_memory() {
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    return cannot_finish(
+        "the scene does not fit into graphics memory; export or draw it with a smaller triangle budget");
+  return {};
+}
+
 }  // namespace
 
 Result<GpuModel> GpuModel::make(const scene::Model& model) {
   GpuModel out;
   out.sun = model.sun;
   out.box = bounds(model);
-  while (glGetError() != GL_NO_ERROR) {
-  }
-
-  // Textures, each image once per use; their levels are made in parallel, then uploaded.
-  using Use = std::tuple<const Image*, TextureKind, float, bool>;
-  std::map<Use, std::size_t> index_of;
-  std::vector<Use> uses;
-  const auto want = [&](const std::shared_ptr<const Image>& image, TextureKind kind, float cutoff, bool anisotropic) {
-    if (!image || image->empty()) return;
-    const Use use{image.get(), kind, cutoff, anisotropic};
-    if (index_of.try_emplace(use, uses.size()).second) uses.push_back(use);
-  };
-  const auto cutoff_of = [](const scene::Material& m) { return m.mask ? m.alpha_cutoff : 0.0f; };
-  const auto grazed = [](const scene::Material& m) { return !m.mask; };
-  for (const scene::Material& m : model.materials) {
-    want(m.base_colour, TextureKind::colour, cutoff_of(m), grazed(m));
-    want(m.normal, TextureKind::normal, 0.0f, grazed(m));
-  }
-  std::vector<std::vector<Image>> chains(uses.size());
-  parallel_for(uses.size(), [&](std::size_t i) {
-    const auto& [image, kind, cutoff, anisotropic] = uses[i];
-    chains[i] = mip_chain(*image, kind, cutoff);
-  });
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    const auto& [image, kind, cutoff, anisotropic] = uses[i];
-    out.textures.push_back(upload_chain(chains[i], kind == TextureKind::colour, anisotropic));
-    chains[i] = {};
-  }
-  const auto texture = [&](const std::shared_ptr<const Image>& image, TextureKind kind, float cutoff,
-                           bool anisotropic) -> GLuint {
-    if (!image || image->empty()) return 0;
-    return out.textures[index_of.at({image.get(), kind, cutoff, anisotropic})].name();
-  };
-  for (const scene::Material& m : model.materials) {
-    GpuMaterial material;
-    material.shader = shader_of(m);
-    material.base_colour = texture(m.base_colour, TextureKind::colour, cutoff_of(m), grazed(m));
-    material.normal = texture(m.normal, TextureKind::normal, 0.0f, grazed(m));
-    material.base_factor = m.base_factor;
-    material.roughness = std::clamp(m.roughness, 0.05f, 1.0f);
-    material.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
-    material.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
-    material.double_sided = m.double_sided;
-    if (material.shader == Shader::ground && !out.ground_material) out.ground_material = out.materials.size();
-    out.materials.push_back(material);
-  }
-
-  // Meshes, each once.
-  std::map<const TriangleMesh*, std::size_t> mesh_index;
-  for (const scene::Node& node : model.nodes)
-    for (const scene::Part& part : node.parts) {
-      if (!part.mesh || part.mesh->empty()) continue;
-      assert(part.material < model.materials.size());
-      const auto [found, is_new] = mesh_index.try_emplace(part.mesh.get(), out.meshes.size());
-      if (is_new) out.meshes.push_back(upload_mesh(*part.mesh));
-      const Box3& own = out.meshes[found->second].box;
-      out.drawables.push_back(
-          {found->second, part.material, node.translation, {own.low + node.translation, own.high + node.translation}});
-    }
-
-  out.overhead = make_overhead(model, out.box);
-  Overhead& map = out.overhead;
-  out.cover = upload_map(GL_RGBA32F, map.columns, map.rows, GL_RGBA, map.cover.data());
-  out.ground = upload_map(GL_R32F, map.columns, map.rows, GL_RED, map.ground.data());
-  map.cover = {}, map.ground = {};
-
-  if (glGetError() == GL_OUT_OF_MEMORY)
-    return cannot_finish(
-        "the scene does not fit into graphics memory; export or draw it with a smaller triangle budget");
+  if (auto added = out.add_materials(model.materials); !added) return added.error();
+  for (const scene::Node& node : model.nodes) out.add(node, 0);
+  if (auto set = out.set_overhead(make_overhead(model, out.box)); !set) return set.error();
   return out;
+}
+
+Result<std::size_t> GpuModel::add_materials(const std::vector<scene::Material>& added) {
+  forget_gl_errors();
+  TextureLoader loader(added);
+  loader.load(textures);
+  const std::size_t first = materials.size();
+  for (const scene::Material& m : added) {
+    materials.push_back(loader.material(m));
+    if (materials.back().shader == Shader::ground && !ground_material) ground_material = materials.size() - 1;
+  }
+  if (auto fits = check_memory(); !fits) return fits.error();
+  return first;
+}
+
+// The place of a mesh, copied unless it is there.
+std::size_t GpuModel::mesh_of(const std::shared_ptr<const TriangleMesh>& mesh) {
+  const auto found = mesh_index_.find(mesh.get());
+  if (found != mesh_index_.end() && meshes[found->second].source.lock() == mesh) return found->second;
+  std::size_t place = meshes.size();
+  if (free_meshes_.empty()) {
+    meshes.emplace_back();
+  } else {
+    place = free_meshes_.back();
+    free_meshes_.pop_back();
+  }
+  meshes[place] = upload_mesh(*mesh);
+  meshes[place].address = mesh.get();
+  meshes[place].source = mesh;
+  mesh_index_[mesh.get()] = place;
+  return place;
+}
+
+void GpuModel::add(const scene::Node& node, std::uint64_t key) {
+  for (const scene::Part& part : node.parts) {
+    if (!part.mesh || part.mesh->empty()) continue;
+    assert(part.material < materials.size());
+    const std::size_t mesh = mesh_of(part.mesh);
+    ++meshes[mesh].uses;
+    const Box3& own = meshes[mesh].box;
+    drawables.push_back(
+        {mesh, part.material, node.translation, {own.low + node.translation, own.high + node.translation}, key});
+    if (key) ++drawables_of_[key];
+  }
+}
+
+Result<void> GpuModel::put(std::uint64_t key, const scene::Node& node) {
+  assert(key > 0);
+  forget_gl_errors();
+  remove(key);
+  const std::size_t first = drawables.size();
+  add(node, key);
+  for (std::size_t d = first; d < drawables.size(); ++d) {
+    box.add(drawables[d].box.low);
+    box.add(drawables[d].box.high);
+  }
+  return check_memory();
+}
+
+void GpuModel::remove(std::uint64_t key) {
+  const auto own = drawables_of_.find(key);
+  if (own == drawables_of_.end()) return;
+  std::size_t left = own->second;
+  drawables_of_.erase(own);
+  // Order means nothing here, drawing sorts: the last one takes the place of one that goes.
+  for (std::size_t d = drawables.size(); d-- > 0 && left > 0;) {
+    if (drawables[d].node != key) continue;
+    const std::size_t mesh = drawables[d].mesh;
+    if (--meshes[mesh].uses == 0) {
+      const auto found = mesh_index_.find(meshes[mesh].address);
+      if (found != mesh_index_.end() && found->second == mesh) mesh_index_.erase(found);
+      meshes[mesh] = {};
+      free_meshes_.push_back(mesh);
+    }
+    drawables[d] = drawables.back();
+    drawables.pop_back();
+    --left;
+  }
+}
+
+Result<void> GpuModel::set_overhead(Overhead map) {
+  forget_gl_errors();
+  overhead = std::move(map);
+  cover = upload_map(GL_RGBA32F, overhead.columns, overhead.rows, GL_RGBA, overhead.cover.data());
+  ground = upload_map(GL_R32F, overhead.columns, overhead.rows, GL_RED, overhead.ground.data());
+  overhead.cover = {}, overhead.ground = {};
+  return check_memory();
 }
 
 }  // namespace bosquet::render

@@ -6,7 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "core/result.h"
@@ -26,6 +29,9 @@ struct GpuVertex {
 };
 
 struct GpuMesh {
+  const TriangleMesh* address = nullptr;     ///< where it was copied from, which may be gone by now
+  std::weak_ptr<const TriangleMesh> source;  ///< tells it apart from a later mesh at the same address
+  int uses = 0;                              ///< drawables that show it; 0: the place is free
   GlVertexArray array;
   GlBuffer vertices, indices;
   GLsizei count = 0;
@@ -46,7 +52,8 @@ struct GpuMaterial {
 struct Drawable {
   std::size_t mesh, material;
   Vec3 translation;
-  Box3 box;  ///< world
+  Box3 box;                ///< world
+  std::uint64_t node = 0;  ///< key of the node it belongs to; 0 for those of the model
 };
 
 struct GpuModel {
@@ -57,11 +64,25 @@ struct GpuModel {
   GlTexture cover, ground;                     ///< the maps of Overhead
   Overhead overhead;                           ///< its two maps emptied
   std::optional<std::size_t> ground_material;  ///< the first one, whose texture the land around bears too
-  Box3 box;
+  Box3 box;                                    ///< around all that is, or was, drawn
   scene::Sun sun;
 
   /// Copies a model to graphics memory.
   static Result<GpuModel> make(const scene::Model& model);
+
+  Result<std::size_t> add_materials(const std::vector<scene::Material>& added);
+  /// Sets the node with a key above 0.
+  Result<void> put(std::uint64_t key, const scene::Node& node);
+  void remove(std::uint64_t key);
+  Result<void> set_overhead(Overhead map);
+
+ private:
+  void add(const scene::Node& node, std::uint64_t key);
+  std::size_t mesh_of(const std::shared_ptr<const TriangleMesh>& mesh);
+
+  std::map<const TriangleMesh*, std::size_t> mesh_index_;
+  std::vector<std::size_t> free_meshes_;
+  std::unordered_map<std::uint64_t, std::size_t> drawables_of_;  ///< of each node: how many
 };
 
 }  // namespace bosquet::render

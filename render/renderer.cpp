@@ -53,11 +53,28 @@ Vec4 tone_curve() {
   return {contrast, shoulder, b, c};
 }
 
+/// Texels a side of the one shadow map of drafts.
+constexpr int kDraftShadow = 2048;
+
 /// Which parts of the scene a pass draws.
 struct Pass {
   bool mirrored = false;
   float water_level = 0;
 };
+
+/// Looks straight down at all of a box.
+ViewVolume volume_from_above(const Box3& box) {
+  const Vec3 half = 0.5f * box.size();
+  return {.eye = box.centre(),
+          .right = {1, 0, 0},
+          .up = {0, 0, -1},
+          .forward = -kUp,
+          .half_width = half.x,
+          .half_height = half.z,
+          .orthographic = true,
+          .near = -half.y,
+          .far = half.y};
+}
 
 Box3 relative(const Box3& box, const Vec3& eye) { return {box.low - eye, box.high - eye}; }
 
@@ -88,10 +105,16 @@ struct Renderer::State {
 
   TileTarget tile;
   MirrorTarget mirror;
-  ShadowTarget shadow;
+  ShadowTarget shadow, draft_shadow;
+  GLuint shadow_map = 0;  ///< of the one that the present picture reads
   GlBuffer frame;
   GlVertexArray nothing;  ///< the sky's triangle has no vertex data
   GlTexture sky;
+
+  // Counts what was put and removed, and for which count and sun the draft's shadow map was drawn.
+  std::uint64_t scene_count = 1, draft_shadow_count = 0;
+  Vec3 draft_shadow_sun{0.0f};
+  std::vector<Cascade> draft_cascade;
 
   // The last atmosphere and what it was made for.
   Atmosphere air;
@@ -104,7 +127,8 @@ struct Renderer::State {
   void use_atmosphere(const scene::Sun& sun, float turbidity);
   static void aim(FrameBlock& block, const ViewVolume& volume, const ClipWindow& window);
   Result<void> draw_mirror(FrameBlock& block, const ViewVolume& volume, const View& view);
-  void draw_shadows(const std::vector<Cascade>& cascades);
+  Result<void> shade(FrameBlock& block, const ViewVolume& volume, const View& view);
+  void draw_shadows(const ShadowTarget& map, const std::vector<Cascade>& cascades);
   void draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn);
   void draw_parts(const Program& program, Shader shader, const std::vector<const Drawable*>& parts, const Vec3& eye);
   void set_frame(const FrameBlock& block);
@@ -143,11 +167,30 @@ Result<Renderer> Renderer::create() {
 Result<void> Renderer::upload(const scene::Model& model) {
   // What is there goes first: there may not be memory for both.
   state_->model = GpuModel();
+  ++state_->scene_count;
   Result<GpuModel> made = GpuModel::make(model);
   if (!made) return made.error();
   state_->model = std::move(*made);
   return {};
 }
+
+Result<std::size_t> Renderer::add_materials(const std::vector<scene::Material>& materials) {
+  return state_->model.add_materials(materials);
+}
+
+Result<void> Renderer::put(std::uint64_t key, const scene::Node& node) {
+  ++state_->scene_count;
+  return state_->model.put(key, node);
+}
+
+void Renderer::remove(std::uint64_t key) {
+  ++state_->scene_count;
+  state_->model.remove(key);
+}
+
+Result<void> Renderer::set_overhead(Overhead overhead) { return state_->model.set_overhead(std::move(overhead)); }
+
+Box3 Renderer::bounds() const { return state_->model.box; }
 
 void Renderer::set_tile_limit(int pixels) { state_->tile_limit = std::max(16, pixels); }
 const DrawFacts& Renderer::facts() const { return state_->facts; }
@@ -212,6 +255,7 @@ Result<void> Renderer::draw_into(unsigned framebuffer, const View& view) {
 /// picture counted from its lower left.
 Result<void> Renderer::State::draw(const View& view, const std::function<void(int x, int y, int w, int h)>& take_tile) {
   facts = {};
+  shadow_map = 0;
   const int asked = view.samples > 0 ? view.samples : drawn_by_software() && view.supersample > 1 ? 1 : kSamples;
   facts.samples = std::min<int>(asked, most_samples);
   const bool natural = view.shading == Shading::natural;
@@ -224,24 +268,8 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  if (natural && block.cascade_far.w > 0) {
-    int size = kSmallestShadow;
-    while (size < kLargestShadow && size < std::max(view.width, view.height)) size *= 2;
-    if (!shadow.fit(std::min<int>(size, largest_target), kCascades))
-      return cannot_finish("the graphics driver refuses shadow maps of " + std::to_string(size) + " x " +
-                           std::to_string(size) + " texels");
-    const std::vector<Cascade> cascades = fit_cascades(volume, model.box, Vec3(block.to_sun), kCascades, shadow.size());
-    for (int c = 0; c < kCascades; ++c) {
-      const Cascade& cascade = cascades[static_cast<std::size_t>(c)];
-      Mat4 from_eye(1.0f);
-      from_eye[3] = Vec4(volume.eye, 1.0f);
-      block.relative_to_shadow[c] = cascade.world_to_clip * from_eye;
-      block.cascade_far[c] = cascade.far_depth;
-      block.cascade_texel[c] = cascade.texel_m;
-      block.cascade_depth[c] = cascade.depth_range_m;
-    }
-    draw_shadows(cascades);
-  }
+  if (natural && block.cascade_far.w > 0)
+    if (Result<void> shaded = shade(block, volume, view); !shaded) return shaded;
 
   const int supersample = std::max(1, view.supersample);
   const int limit = std::max(supersample, std::min<int>(tile_limit, largest_target) / supersample * supersample);
@@ -250,7 +278,7 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
     return cannot_finish("the graphics driver refuses a picture of " + std::to_string(tile_width) + " x " +
                          std::to_string(tile_height) + " pixels with " + std::to_string(facts.samples) + " samples");
 
-  if (natural)
+  if (natural && view.quality == Quality::full)
     if (Result<void> drawn = draw_mirror(block, volume, view); !drawn) return drawn;
 
   for (int y = 0; y < view.height; y += tile_height)
@@ -386,13 +414,47 @@ Result<void> Renderer::State::draw_mirror(FrameBlock& block, const ViewVolume& v
   return {};
 }
 
-void Renderer::State::draw_shadows(const std::vector<Cascade>& cascades) {
+/// Draws the shadow maps, unless the draft's can be kept, and tells the block of them.
+Result<void> Renderer::State::shade(FrameBlock& block, const ViewVolume& volume, const View& view) {
+  const bool draft = view.quality == Quality::draft;
+  const Vec3 to_sun(block.to_sun);
+  int size = draft ? kDraftShadow : kSmallestShadow;
+  while (!draft && size < kLargestShadow && size < std::max(view.width, view.height)) size *= 2;
+  size = std::min<int>(size, largest_target);
+  const int count = draft ? 1 : kCascades;
+  const bool kept = draft && draft_shadow_count == scene_count && draft_shadow_sun == to_sun;
+  ShadowTarget& map = draft ? draft_shadow : shadow;
+  std::vector<Cascade> cascades = draft_cascade;
+  if (!kept) {
+    if (!map.fit(size, count))
+      return cannot_finish("the graphics driver refuses shadow maps of " + std::to_string(size) + " x " +
+                           std::to_string(size) + " texels");
+    const ViewVolume seen = draft ? volume_from_above(model.box) : volume;
+    cascades = fit_cascades(seen, model.box, to_sun, count, map.size());
+    draw_shadows(map, cascades);
+    if (draft) draft_cascade = cascades, draft_shadow_count = scene_count, draft_shadow_sun = to_sun;
+  }
+  shadow_map = map.texture();
+  block.cascade_far.w = static_cast<float>(count);
+  for (int c = 0; c < count; ++c) {
+    const Cascade& cascade = cascades[static_cast<std::size_t>(c)];
+    Mat4 from_eye(1.0f);
+    from_eye[3] = Vec4(volume.eye, 1.0f);
+    block.relative_to_shadow[c] = cascade.world_to_clip * from_eye;
+    block.cascade_far[c] = cascade.far_depth;
+    block.cascade_texel[c] = cascade.texel_m;
+    block.cascade_depth[c] = cascade.depth_range_m;
+  }
+  return {};
+}
+
+void Renderer::State::draw_shadows(const ShadowTarget& map, const std::vector<Cascade>& cascades) {
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 2.0f);
   glDisable(GL_CULL_FACE);
   for (std::size_t c = 0; c < cascades.size(); ++c) {
-    shadow.bind(static_cast<int>(c));
-    glViewport(0, 0, shadow.size(), shadow.size());
+    map.bind(static_cast<int>(c));
+    glViewport(0, 0, map.size(), map.size());
     glClear(GL_DEPTH_BUFFER_BIT);
     const Mat4& to_clip = cascades[c].world_to_clip;
     for (const bool leaves : {false, true}) {
@@ -460,7 +522,7 @@ void Renderer::State::draw_parts(const Program& program, Shader shader, const st
 void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volume, const Pass& pass, bool sky_drawn) {
   set_frame(block);
   const std::pair<GLint, std::pair<GLenum, GLuint>> bound[] = {
-      {kUnitShadow, {GL_TEXTURE_2D_ARRAY, shadow.texture()}},
+      {kUnitShadow, {GL_TEXTURE_2D_ARRAY, shadow_map}},
       {kUnitSky, {GL_TEXTURE_2D, sky.name()}},
       {kUnitCover, {GL_TEXTURE_2D, model.cover.name()}},
       {kUnitGround, {GL_TEXTURE_2D, model.ground.name()}},

@@ -14,11 +14,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "core/result.h"
+#include "render/overhead.h"
 #include "render/view.h"
 #include "scene/model.h"
 
@@ -43,6 +45,21 @@ class Renderer {
   /// Copies the model to graphics memory, in place of an earlier one; meshes that several nodes share are copied once.
   /// Nothing of `model` is needed afterwards.
   Result<void> upload(const scene::Model& model);
+
+  // For a scene that changes while it is looked at: nodes of its own beside those of the uploaded model. A mesh that
+  // several of them share is copied once.
+
+  /// Adds materials behind those that are there; the index of the first one.
+  Result<std::size_t> add_materials(const std::vector<scene::Material>& materials);
+  /// Sets the node with a key, in place of an earlier one with it; its materials must be there.
+  Result<void> put(std::uint64_t key, const scene::Node& node);
+  /// Takes the node with a key away, if there is one.
+  void remove(std::uint64_t key);
+  /// Maps of what stands overhead (render/overhead.h), made anew by whoever changed the scene; put() and remove() leave
+  /// them as they were.
+  Result<void> set_overhead(Overhead overhead);
+  /// Around all that is drawn, world.
+  Box3 bounds() const;
 
   /// The picture, first row at the top. Drawn in tiles when it is larger than the driver's or our limit.
   Result<Image> draw(const View& view);

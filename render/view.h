@@ -19,6 +19,13 @@ enum class Shading {
   silhouette,  ///< black where anything but sky is, white elsewhere, background ignored: for comparing outlines
 };
 
+/// How much is spent on a picture.
+enum class Quality {
+  full,
+  draft,  ///< while a hand moves: no mirror image in the water, and one shadow map of the whole scene, kept until the
+          ///< scene or the sun changes
+};
+
 /// Light and lens: the part of a view that a designer tunes.
 struct Look {
   float exposure_ev = 0.0f;         ///< added to the automatic exposure
@@ -48,6 +55,7 @@ struct View {
   bool sky = true;                     ///< false: `background` is drawn where nothing stands; light stays the same
   Vec3 background{1.0f};               ///< linear
   Shading shading = Shading::natural;
+  Quality quality = Quality::full;
   /// The picture is drawn this many times wider and higher and averaged, 1-4: calmer twigs and leaves. Windows take 1.
   int supersample = 2;
   /// Samples per pixel, 1-16, capped by what the driver offers (llvmpipe: 4). 0: 4, but 1 where software draws a

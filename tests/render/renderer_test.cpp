@@ -376,6 +376,78 @@ TEST_F(RendererTest, DrawsIntoTheCallersFramebufferWhatItWouldReturn) {
   EXPECT_EQ(most, 0);
 }
 
+TEST_F(RendererTest, NodesPutAndRemovedLookAsIfTheyHadBeenUploaded) {
+  const View view = small_view({20, 12, 6}, {20, 1, -20});
+  const scene::Model ground = test::ground_scene(40);
+  scene::Model both = ground, all = ground;
+  test::add_box(both, {12, 1, -20}, {2, 2, 2}, {0.6f, 0.03f, 0.03f});
+  all = both;
+  test::add_box(all, {26, 2, -16}, {3, 4, 3}, {0.03f, 0.5f, 0.03f});
+  const Image with_both = draw(both, view), with_all = draw(all, view), with_none = draw(ground, view);
+  const Overhead overhead_of_all = make_overhead(all, bounds(all)),
+                 overhead_of_ground = make_overhead(ground, bounds(ground));
+  const auto differs = [&](const Image& wanted, const Overhead& overhead) {
+    EXPECT_TRUE(renderer_->set_overhead(overhead));
+    const Result<Image> seen = renderer_->draw(view);
+    return seen ? largest_difference(*seen, wanted) : 255;
+  };
+
+  ASSERT_TRUE(renderer_->upload(ground));
+  const std::vector<scene::Material> added(all.materials.begin() + 1, all.materials.end());
+  const Result<std::size_t> first = renderer_->add_materials(added);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first, 1u);
+  ASSERT_TRUE(renderer_->put(7, all.nodes[1]));
+  ASSERT_TRUE(renderer_->put(9, all.nodes[2]));
+  // The view's near and far ends follow the boxes that were there, and so do depths in the last bit.
+  EXPECT_LE(differs(with_all, overhead_of_all), 2);
+  // A key means one node: putting it again replaces, removing it takes all of it, and only it.
+  ASSERT_TRUE(renderer_->put(9, all.nodes[1]));
+  renderer_->remove(7);
+  EXPECT_LE(differs(with_both, make_overhead(both, bounds(both))), 3);
+  renderer_->remove(9);
+  renderer_->remove(9);
+  EXPECT_LE(differs(with_none, overhead_of_ground), 3);
+}
+
+TEST_F(RendererTest, AMeshAtTheAddressOfAnEarlierOneIsNotTakenForIt) {
+  scene::Model model = test::ground_scene(40);
+  test::add_box(model, {20, 1, -20}, {2, 2, 2}, {0.6f, 0.03f, 0.03f});
+  scene::Node node = model.nodes.back();
+  model.nodes.pop_back();
+  // The same mesh object is filled anew, as a freed one's memory may be.
+  auto mesh = std::make_shared<TriangleMesh>(*node.parts[0].mesh);
+  node.parts[0].mesh = std::shared_ptr<const TriangleMesh>(mesh.get(), [](const TriangleMesh*) {});
+  ASSERT_TRUE(renderer_->upload(model));
+  ASSERT_TRUE(renderer_->put(1, node));
+  for (Vec3& p : mesh->positions) p *= 4.0f;
+  node.parts[0].mesh = std::shared_ptr<const TriangleMesh>(mesh.get(), [](const TriangleMesh*) {});
+  ASSERT_TRUE(renderer_->put(2, node));
+  const View view = small_view({20, 12, 6}, {20, 1, -20});
+  const Result<Image> image = renderer_->draw(view);
+  ASSERT_TRUE(image);
+  EXPECT_TRUE(is_red(light_at(*image, pixel_of(view, {17.5f, 2, -17}))));
+}
+
+TEST_F(RendererTest, ADraftHasTheFullPicturesLightAndShadow) {
+  scene::Model model = test::ground_scene(40);
+  test::add_box(model, {20, 4, -20}, {1.5f, 8, 1.5f}, Vec3(0.5f));
+  View view = small_view({20, 40, -20}, {20, 0, -20});
+  view.quality = Quality::draft;
+  for (const float azimuth : {180.0f, 90.0f}) {
+    view.sun = scene::Sun{azimuth, 45};
+    const Image draft = draw(model, view);
+    const Result<Image> again = renderer_->draw(view);  // by the map that was kept
+    ASSERT_TRUE(again);
+    EXPECT_EQ(largest_difference(draft, *again), 0);
+    view.quality = Quality::full;
+    const Image full = draw(model, view);
+    view.quality = Quality::draft;
+    for (const Vec3& p : {Vec3(20, 0, -26), Vec3(14, 0, -20), Vec3(10, 0, -10), Vec3(30, 0, -12)})
+      EXPECT_NEAR(luminance(light_at(draft, pixel_of(view, p))), luminance(light_at(full, pixel_of(view, p))), 0.02f);
+  }
+}
+
 TEST_F(RendererTest, ImpossiblePicturesAreRefusedWithTheAllowedRange) {
   const auto message = [](const View& view) {
     const Result<Image> image = renderer_->draw(view);
