@@ -272,6 +272,11 @@ void GpuModel::remove(std::uint64_t key) {
     drawables.pop_back();
     --left;
   }
+  box = {};
+  for (const Drawable& d : drawables) {
+    box.add(d.box.low);
+    box.add(d.box.high);
+  }
 }
 
 Result<void> GpuModel::set_overhead(Overhead map) {

@@ -64,7 +64,7 @@ struct GpuModel {
   GlTexture cover, ground;                     ///< the maps of Overhead
   Overhead overhead;                           ///< its two maps emptied
   std::optional<std::size_t> ground_material;  ///< the first one, whose texture the land around bears too
-  Box3 box;                                    ///< around all that is, or was, drawn
+  Box3 box;                                    ///< around all drawables, world
   scene::Sun sun;
 
   /// Copies a model to graphics memory.
