@@ -32,11 +32,11 @@ float kernel(KernelKind kind, float trunk_radius_m, float active_radius_m, float
 
 KernelTable log2_kernel_table(KernelKind kind, float effect) {
   assert(effect >= 1.0f);
-  KernelTable table{};
+  KernelTable table{kind == KernelKind::clustering, {}};
   for (int n = 0; n < kKernelSteps; ++n) {
     const float value = log2(kernel_at(kind, effect, (static_cast<float>(n) + 0.5f) / kKernelSteps));
-    const auto steps = static_cast<std::uint64_t>((value < 0.0f ? -value : value) * (1 << kLogBits) + 0.5f);
-    table[static_cast<std::size_t>(n)] = kind == KernelKind::clustering ? steps << 32 : steps;
+    table.steps[static_cast<std::size_t>(n)] =
+        static_cast<std::uint32_t>((value < 0.0f ? -value : value) * (1 << kLogBits) + 0.5f);
   }
   return table;
 }

@@ -34,6 +34,8 @@ struct Interaction {
   KernelKind kind = KernelKind::none;
   float active_radius_m = 5.0f;
   float effect = 4.0f;
+
+  bool operator==(const Interaction&) const = default;
 };
 
 template <class P, class Visitor>
@@ -53,11 +55,14 @@ void describe(P& p, Visitor& visit) {
 float kernel(KernelKind kind, float trunk_radius_m, float active_radius_m, float effect, float distance_m);
 
 /// |log2 K| over x = (d - r)/(a - r), as probability fields store it: in steps of 2^-kLogBits, entry n for
-/// x = (n + 1/2) / kKernelSteps and the last entry 0, for everything beyond. Clustering counts in the upper 32 bits and
-/// inhibition in the lower, so one addition serves both and neither hides the other.
+/// x = (n + 1/2) / kKernelSteps and the last entry 0, for everything beyond. Fields count clustering and inhibition
+/// apart, so that neither hides the other.
 inline constexpr int kKernelSteps = 512;
 inline constexpr int kLogBits = 10;
-using KernelTable = std::array<std::uint64_t, kKernelSteps + 1>;
+struct KernelTable {
+  bool clustering = false;
+  std::array<std::uint32_t, kKernelSteps + 1> steps{};
+};
 KernelTable log2_kernel_table(KernelKind kind, float effect);
 
 }  // namespace bosquet::distribution

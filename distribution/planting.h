@@ -5,7 +5,7 @@
 //           the distance to every tree (least_distance_m), the terrain and the species' rules
 // Holds     fields are a function of terrain, rules and the trees standing: after any adding, removing and moving they
 //           equal, bit for bit, fields made anew from those trees
-// Cost      a species' field is made when it is first drawn from; n x n cells take some 15 n^2 bytes for each
+// Cost      a species' field is made when it is first drawn from; n x n cells take 11 to 13 n^2 bytes for each
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 // Decision  the first draws for a tree are made as if the whole site were suitable (Sums::open) and refused where it is
 //           not, only later ones from the suitable cells alone. Both ways have the same distribution, and a new path or
 //           pond moves hardly any tree that did not stand on it
-// Layout    cells in blocks of 4 x 4, so a kernel touches few cache lines; sums are kept for blocks and above
+// Layout    cells in blocks of 4 x 4 (field_blocks.h); sums are kept for blocks and above
 // Frame     cell (i, j) spans (i, j) * cell_m to the next, i east, j north; (0, 0) at the site's south-west corner
 // Cost      a kernel: its blocks; a draw: the mask's rim and four numbers a level
 #pragma once
@@ -27,6 +27,7 @@
 
 #include "core/random.h"
 #include "core/vec.h"
+#include "distribution/field_blocks.h"
 #include "distribution/kernels.h"
 #include "distribution/region_mask.h"
 
@@ -79,36 +80,27 @@ class ProbabilityField {
   bool operator==(const ProbabilityField&) const = default;
 
  private:
-  struct Pair {
-    std::uint64_t open = 0, suited = 0;
-    Pair& operator+=(const Pair& p) { return open += p.open, suited += p.suited, *this; }
-    bool operator==(const Pair&) const = default;
-  };
   struct Level {
     IVec2 nodes{0};
-    std::vector<Pair> sums;
+    std::vector<WeightPair> sums;
     bool operator==(const Level&) const = default;
+  };
+  struct Place {
+    std::size_t block, cell;
   };
 
   void apply(const Stamp& stamp, int sign);
   void change_cover(IVec2 cell, int by);
-  Pair block_sum(std::size_t block) const;
   void sum_above(IVec2 low, IVec2 high);
-  std::size_t place(IVec2 cell) const;
-  std::uint64_t open_weight(std::size_t place) const;
-  Pair cell_weight(std::size_t place) const;
-  std::uint64_t node_sum(Sums which, int level, int x, int y) const;
+  Place place(IVec2 cell) const;
+  WeightPair cell_weight(IVec2 cell) const;
+  WeightPair node_sum(int level, int x, int y) const;
 
   IVec2 cells_;
   float cell_m_;
-  IVec2 blocks_;
   int top_ = 0;
-  std::uint32_t most_steps_ = 0;      // log2 of `most`
-  std::vector<std::uint64_t> log2_;   // sums of the kernels' tables
-  std::vector<std::uint32_t> cover_;  // how many trees leave no room; 1 in cells that only fill up a block
-  std::vector<std::uint8_t> suitability_;
-  std::vector<std::uint8_t> suits_wholly_;  // of each block: 255 in all its cells
-  std::vector<Level> levels_;               // levels_[n] holds level n + 2
+  FieldBlocks blocks_;         // cells that only fill up a block are covered
+  std::vector<Level> levels_;  // above the blocks: levels_[n] holds level n + 3
 };
 
 }  // namespace bosquet::distribution
