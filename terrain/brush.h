@@ -8,11 +8,12 @@
 //             flatten        h + f * (height where the stroke begins - h)
 //             smooth         h + f * (mean of the surroundings within a third of the radius - h)
 //             density        d + f * (density - d)
-//           exclude and include set the exclusion to 1 or 0 wherever d <= radius
+//           exclude and include set the exclusion to 1 or 0 wherever d <= radius; exclude gives the place to `area`
 // Decision  a stroke passes each place once however often it crosses itself: its effect depends on the path alone,
 //           neither on how many events recorded it nor on how fast they came, and "lower by 2 m" is 2 m deep. Painting
 //           twice takes two strokes
-// Holds     the result shares every tile that the stroke does not touch; cost follows the touched tiles
+// Holds     the result shares every tile that the stroke does not touch; cost follows the touched tiles. Undo is
+//           keeping the earlier value
 // Frame     plan (east, north) metres
 #pragma once
 
@@ -27,6 +28,8 @@
 #include "core/parameter.h"
 #include "core/polygon.h"
 #include "core/vec.h"
+#include "terrain/exclusion.h"
+#include "terrain/line_distance.h"
 #include "terrain/terrain.h"
 
 namespace bosquet::terrain {
@@ -46,6 +49,7 @@ struct Stroke {
   float density = 0.0f;
   float noise_scale_m = 5.0f;
   std::uint64_t seed = 0;  ///< of the noise brush
+  Area area = {};          ///< that the exclude brush makes; without a name at first
 };
 
 template <class P, class Visitor>
@@ -60,14 +64,36 @@ void describe(P& p, Visitor& visit) {
   visit(Real{"noise_scale_m", "m", 0.5, 10000, "Distance between the bumps of the noise brush"}, p.noise_scale_m);
 }
 
-/// The terrain after the stroke. A stroke without points changes nothing.
+/// The terrain after the stroke, and what it touched. A stroke without points changes nothing.
+Edit edit(const Terrain& terrain, const Stroke& stroke);
+
+/// The terrain after the stroke.
 Terrain apply(const Terrain& terrain, const Stroke& stroke);
 
-/// The terrain with nothing planted inside a polygon (its holes stay free).
-Terrain exclude(const Terrain& terrain, const Polygon& area);
+/// A stroke while it is drawn. Its terrain after each event is the one that edit() makes of all points so far, bit for
+/// bit, however the points came; an event costs the places that it brings the stroke nearer to.
+class LiveStroke {
+ public:
+  /// Begins with the stroke's own points, if it has any.
+  LiveStroke(const Terrain& before, Stroke stroke);
 
-/// The terrain with nothing planted within half of `width_m` of a polyline; at least a cell's diagonal wide, so that a
-/// narrow path has no gaps.
-Terrain exclude_path(const Terrain& terrain, std::span<const Vec2> path, float width_m);
+  /// Continues the stroke; returns the rectangle beyond which nothing changed by that.
+  Box2 extend(std::span<const Vec2> points);
+
+  const Terrain& before() const { return before_; }
+  const Terrain& terrain() const { return after_; }  ///< may be copied at any time
+  const Stroke& stroke() const { return stroke_; }   ///< with all points so far, to be kept
+
+ private:
+  LineDistance empty_distance() const;
+  void shape(std::span<const Piece> fresh);
+  void bar(std::span<const Piece> fresh);
+  void set_density(std::span<const Piece> fresh);
+
+  Terrain before_, after_;
+  Stroke stroke_;
+  LineDistance distance_;
+  AreaId area_ = 0;
+};
 
 }  // namespace bosquet::terrain
