@@ -36,6 +36,8 @@ namespace bosquet::crowns {
 struct LightOptions {
   bool canopy_light = true;
   float light_reach_m = 15.0f;
+
+  bool operator==(const LightOptions&) const = default;
 };
 
 template <class P, class Visitor>

@@ -32,6 +32,8 @@ struct MixEntry {
   std::uint32_t species = 0;
   float probability = 1.0f;                  ///< relative to the other entries, >= 0
   float scale_min = 0.0f, scale_max = 0.0f;  ///< both 0: the species' own range
+
+  bool operator==(const MixEntry&) const = default;
 };
 
 /// What is sown.

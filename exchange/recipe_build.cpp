@@ -94,7 +94,7 @@ TriangleMesh placed(TriangleMesh mesh, const ObstacleRecipe& at, const terrain::
 
 Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std::vector<std::string>& warnings) {
   const terrain::Terrain& ground = *document.terrain;
-  std::vector<scene::Obstacle>& all = document.obstacles;
+  std::vector<scene::Obstacle> all;
   for (const ObstacleRecipe& o : recipe.obstacles) {
     const std::string ending = o.file.extension().string();
     if (o.file.empty()) {
@@ -116,6 +116,7 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
     if (all.back().mesh->empty()) return Error{fmt::format("obstacle '{}': its outline has no area", all.back().name)};
   }
   for (std::size_t n = 0; n < all.size(); ++n) all[n].id = -1 - static_cast<std::int32_t>(n);
+  document.obstacles = std::move(all);
   return {};
 }
 
@@ -343,6 +344,8 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
     };
     document.cameras.push_back({camera.name, place(camera.eye), place(camera.target), camera.vertical_fov_deg});
   }
+  document.interactions = recipe.interactions;
+  scene::settle_counters(document);
   return built;
 }
 

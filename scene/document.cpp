@@ -9,6 +9,14 @@ constexpr float kLeastScale = 0.02f, kMostScale = 2.0f;
 
 }  // namespace
 
+void settle_counters(Document& document) {
+  if (document.trees && !document.trees->empty())
+    document.next_tree_id = std::max(document.next_tree_id, document.trees->back().id + 1);
+  for (const Obstacle& o : document.obstacles)
+    document.next_standing_id = std::min(document.next_standing_id, o.id - 1);
+  for (const HeroTree& h : document.heroes) document.next_standing_id = std::min(document.next_standing_id, h.id - 1);
+}
+
 void set_measured_size(Tree& tree, const Species& species, std::optional<float> height_m,
                        std::optional<float> trunk_diameter_m, std::optional<float> crown_diameter_m) {
   const auto scale = [](float size, float mature) { return std::clamp(size / mature, kLeastScale, kMostScale); };

@@ -1,7 +1,9 @@
 // Document: a site, its species and its trees as one value.
 //
-// Model     parts are shared and immutable: a copy costs a few pointers, an edit replaces the part that it touches. All
-//           that can be computed (regions, skeletons, meshes) is not in it.
+// Model     parts are shared and immutable: a copy costs a few pointers, an edit replaces the part that it touches
+//           (edits.h). All that can be computed (regions, skeletons, meshes) is not in it.
+// Identity  ids come from counters of the document and are never given twice. Undo takes the counters back with the rest,
+//           so that what is done again is the same again
 // Frame     plan (east, north) metres from the site's south-west corner
 #pragma once
 
@@ -15,9 +17,12 @@
 #include "crowns/asymmetry.h"
 #include "crowns/canopy_light.h"
 #include "crowns/crown_space.h"
+#include "distribution/kernels.h"
+#include "distribution/sowing.h"
 #include "scene/hero_tree.h"
 #include "scene/model.h"
 #include "scene/obstacle.h"
+#include "scene/shared_list.h"
 #include "scene/species.h"
 #include "scene/trees.h"
 #include "terrain/terrain.h"
@@ -29,22 +34,29 @@ struct Georeference {
   double latitude_deg = 50.0, longitude_deg = 10.0;  ///< for the sun
   DVec2 south_west{0.0};                             ///< projected coordinates of the site's corner
   std::string crs_wkt;                               ///< empty when unknown
+
+  bool operator==(const Georeference&) const = default;
 };
 
 struct Document {
   std::uint64_t seed = 1;
   Georeference place;
   std::shared_ptr<const terrain::Terrain> terrain;
-  std::vector<std::shared_ptr<const Species>> species;
+  SharedList<std::shared_ptr<const Species>> species;
+  SharedList<distribution::Interaction> interactions;
+  SharedList<distribution::MixEntry> species_bar;  ///< what brushes plant; empty: all species alike
   std::shared_ptr<const Trees> trees;
-  std::vector<Obstacle> obstacles;
-  std::vector<HeroTree> heroes;
+  SharedList<Obstacle> obstacles;
+  SharedList<HeroTree> heroes;
   crowns::SpaceOptions space;
   crowns::AsymmetryOptions asymmetry;
   crowns::LightOptions light;
-  std::vector<Camera> cameras;
+  SharedList<Camera> cameras;
   Sun sun;
   std::size_t max_triangles = 3'000'000;  ///< of an export; 0 is no limit
+  std::int32_t next_tree_id = 1;
+  std::int32_t next_standing_id = -1;  ///< of obstacles and hero trees, downward
+  std::uint64_t next_block = 1;        ///< number of the next planting by hand: its trees' keys come from it
 
   const Species& species_of(const Tree& tree) const { return *species[tree.species]; }
   /// Height at which the tree stops growing.
@@ -57,6 +69,9 @@ struct Document {
     return std::max(tree.scale_height, grown) * kind.shape.mature_height_m;
   }
 };
+
+/// Brings the counters past everything that is in the document.
+void settle_counters(Document& document);
 
 /// Scales and trunk of a tree from what was measured of it. With a trunk diameter, missing height and crown follow the
 /// species' open-grown allometry; without one, height and crown stand for each other. Sizes beyond twice the mature

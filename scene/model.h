@@ -52,11 +52,15 @@ struct Camera {
   std::string name;
   Vec3 eye{0.0f}, target{0.0f};  ///< world
   float vertical_fov_deg = 40.0f;
+
+  bool operator==(const Camera&) const = default;
 };
 
 struct Sun {
   float azimuth_deg = 225.0f;   ///< from north, clockwise: where the light comes from
   float elevation_deg = 40.0f;  ///< above the horizon
+
+  bool operator==(const Sun&) const = default;
 
   /// Unit vector toward the sun, world.
   Vec3 direction() const {

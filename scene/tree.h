@@ -11,15 +11,25 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "core/vec.h"
 #include "crowns/clipped_form.h"
+#include "scene/shared_list.h"
 
 namespace bosquet::scene {
 
 /// What is to happen to it, as plans and schedules tell.
 enum class TreeStatus { proposed, existing, to_remove, to_protect };
 inline constexpr std::array<std::string_view, 4> kTreeStatusNames{"proposed", "existing", "to_remove", "protected"};
+
+/// A number, switch or choice of its species that is another for one tree, by its described key: "growth.straightness".
+struct ParameterOverride {
+  std::string key;
+  std::variant<double, bool, std::string> value;  ///< a choice by its name
+
+  bool operator==(const ParameterOverride&) const = default;
+};
 
 struct Tree {
   std::int32_t id = 0;  ///< 1, 2, ...
@@ -34,6 +44,10 @@ struct Tree {
   TreeStatus status = TreeStatus::proposed;
   std::string inventory_name;  ///< what an inventory called its kind
   std::string inventory_id;
+
+  bool locked = false;                      ///< not to be moved, erased or otherwise changed
+  SharedList<ParameterOverride> overrides;  ///< only what differs from the species, by key (tree_parameters.h)
+  SharedList<std::string> studio_edits;     ///< recorded operations, in order, replayed after it has grown again
 
   bool operator==(const Tree&) const = default;
 };

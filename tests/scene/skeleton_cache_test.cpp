@@ -119,7 +119,7 @@ TEST(SkeletonCache, ASpeciesEditGrowsTheTreesOfThatSpecies) {
   grow(document, &cache);
   Species changed = *document.species[1];
   changed.growth.straightness -= 0.05f, changed.growth.space += 0.05f;
-  document.species[1] = std::make_shared<const Species>(changed);
+  document.species.replace(1, std::make_shared<const Species>(changed));
   EXPECT_EQ(grown_anew(grow(document, &cache)), 2u);
 }
 
