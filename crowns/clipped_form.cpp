@@ -69,6 +69,20 @@ class Body {
 
 bool inside(const ClippedForm& form, float clear_stem_m, const Vec3& p) { return Body(form, clear_stem_m, 0.0f)(p); }
 
+float volume_m3(const ClippedForm& form, float clear_stem_m) {
+  const float box = form.width_m * form.depth_m * (form.height_m - clear_stem_m);
+  switch (form.kind) {
+    case FormKind::ball:
+      return box * (kPi / 6.0f);
+    case FormKind::cone:
+      return box * (kPi / 12.0f);
+    case FormKind::umbrella:
+      return box * (kPi / 6.0f);
+    default:
+      return box;
+  }
+}
+
 float farthest_m(const ClippedForm& form) {
   const auto length = [](float x, float y) { return std::sqrt(x * x + y * y); };
   return length(form.centre.x, form.centre.y) + 0.5f * length(form.width_m, form.depth_m);

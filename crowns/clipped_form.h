@@ -60,7 +60,10 @@ CrownRegion clip(const CrownRegion* region, const ClippedForm& form, float clear
 /// Whether a place lies in the body itself.
 bool inside(const ClippedForm& form, float clear_stem_m, const Vec3& p);
 
-/// Half the diagonal of the body's plan: from the base to its farthest corner, at most.
+/// Room in the body.
+float volume_m3(const ClippedForm& form, float clear_stem_m);
+
+/// From the base to the body's farthest corner in plan, at most.
 float farthest_m(const ClippedForm& form);
 
 }  // namespace bosquet::crowns

@@ -241,8 +241,36 @@ class Reader {
         read_inventory_block(table, planting, scale);
         break;
     }
+    read_order(table, planting);
     table.finish();
     recipe_.plantings.push_back(std::move(planting));
+  }
+
+  // Status, clear stem and clipped form.
+  void read_order(TomlTable& table, PlantingRecipe& planting) {
+    TreeOrder& order = planting.order;
+    if (planting.kind == PlantingKind::inventory) order.status = scene::TreeStatus::existing;
+    describe(order, table);
+    crowns::ClippedForm& form = order.form;
+    if (!form.clipped()) {
+      for (const char* key : {"form_width_m", "form_depth_m", "form_height_m", "form_rotation_deg"})
+        if (table.has(key)) table.error(key, fmt::format("{} needs form = \"box\" or another body beside it", key));
+      return;
+    }
+    constexpr float kLeastBody_m = 0.1f;
+    if (table.has("scale")) table.error("scale", "a clipped tree is as large as its form; leave scale out");
+    if (!(form.height_m >= order.clear_stem_m + kLeastBody_m))
+      table.error(table.has("form_height_m") ? "form_height_m" : "form",
+                  fmt::format("a clipped form needs form_height_m, at least {:g} m above its underside, clear_stem_m = "
+                              "{:g}",
+                              kLeastBody_m, order.clear_stem_m));
+    const bool in_rows = planting.kind == PlantingKind::row || planting.kind == PlantingKind::hedge ||
+                         planting.kind == PlantingKind::grid;
+    if (form.width_m < kLeastBody_m && (!in_rows || table.has("form_width_m")))
+      table.error(table.has("form_width_m") ? "form_width_m" : "form",
+                  fmt::format("a clipped form needs form_width_m, {:g} m or more", kLeastBody_m));
+    if (table.has("form_depth_m") && form.depth_m < kLeastBody_m)
+      table.error("form_depth_m", fmt::format("a clipped form is {:g} m or more across", kLeastBody_m));
   }
 
   void read_area(TomlTable& table, PlantingRecipe& planting) {

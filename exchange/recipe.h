@@ -10,9 +10,11 @@
 // Errors    file, line, key, what is allowed, and the nearest known name
 #pragma once
 
+#include <concepts>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/polygon.h"
@@ -52,9 +54,26 @@ enum class PlantingKind { fill, brush, row, grid, hedge, single, inventory };
 inline constexpr std::array<std::string_view, 7> kPlantingKindNames{"fill",  "brush",  "row",      "grid",
                                                                     "hedge", "single", "inventory"};
 
+/// What is ordered of a block's trees beside their species and size.
+struct TreeOrder {
+  scene::TreeStatus status = scene::TreeStatus::proposed;
+  float clear_stem_m = 0.0f;
+  crowns::ClippedForm form;  ///< width and depth 0: as the rows ask for
+};
+
+template <class P, class Visitor>
+requires std::same_as<std::remove_const_t<P>, TreeOrder>
+void describe(P& p, Visitor& visit) {
+  visit(Choice{"status", scene::kTreeStatusNames, "What is to happen to the trees; an inventory's are existing"},
+        p.status);
+  visit(Real{"clear_stem_m", "m", 0, 40, "Height below which no branch grows"}, p.clear_stem_m);
+  describe(p.form, visit);
+}
+
 struct PlantingRecipe {
   std::string name;
   PlantingKind kind = PlantingKind::fill;
+  TreeOrder order;
   std::vector<distribution::MixEntry> mix;
   std::optional<distribution::Region> area;  ///< missing: the whole site
   std::optional<std::size_t> count;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "core/hash.h"
@@ -12,6 +13,7 @@
 #include "exchange/mesh_file.h"
 #include "exchange/recipe.h"
 #include "geometry/prism.h"
+#include "scene/clipped_tree.h"
 #include "scene/species_names.h"
 
 namespace bosquet::exchange {
@@ -19,6 +21,10 @@ namespace {
 
 using distribution::Planting;
 using distribution::StandingTree;
+
+// What a hedge or panel is like when nothing is said: how far a plant's body goes into its neighbours', the width of a
+// hedge of one row, and the depth of a pleached tree.
+constexpr float kHedgeOverlap = 1.5f, kHedge_m = 0.5f, kPanel_m = 0.5f;
 
 // A list this long says as much as a longer one.
 constexpr std::size_t kListedPlaces = 5;
@@ -142,7 +148,17 @@ class Planter {
       : recipe_(recipe), ground_(ground), planting_(planting), warnings_(warnings), progress_(progress) {}
 
   Result<void> plant(const PlantingRecipe& block) {
-    distribution::Sowing what{recipe_.document.seed, hash_text(block.name), 0, block.mix};
+    const std::size_t first = trees.size();
+    if (auto done = place(block); !done) return done;
+    give_orders(block, first);
+    return {};
+  }
+
+  std::vector<scene::Tree> trees;
+
+ private:
+  Result<void> place(const PlantingRecipe& block) {
+    distribution::Sowing what{recipe_.document.seed, hash_text(block.name), 0, sized_mix(block)};
     const distribution::Region whole = Box2{Vec2(0.0f), recipe_.size_m};
     const distribution::Region& area = block.area ? *block.area : whole;
     switch (block.kind) {
@@ -170,9 +186,64 @@ class Planter {
     return {};
   }
 
-  std::vector<scene::Tree> trees;
+  // A clipped tree is planted at its form's size, so that hedges may stand as close as they do.
+  std::vector<distribution::MixEntry> sized_mix(const PlantingRecipe& block) const {
+    std::vector<distribution::MixEntry> mix = block.mix;
+    if (block.order.form.clipped())
+      for (distribution::MixEntry& entry : mix)
+        entry.scale_min = entry.scale_max =
+            scene::clipped_scale(*recipe_.document.species[entry.species], block.order.form);
+    return mix;
+  }
 
- private:
+  // Status, clear stem and form of the trees from `first` on. What is to be removed makes room at once.
+  void give_orders(const PlantingRecipe& block, std::size_t first) {
+    const TreeOrder& order = block.order;
+    for (std::size_t i = first; i < trees.size(); ++i) {
+      scene::Tree& tree = trees[i];
+      if (tree.status == scene::TreeStatus::proposed) tree.status = order.status;
+      if (tree.clear_stem_m == 0.0f) tree.clear_stem_m = order.clear_stem_m;
+      if (order.form.clipped())
+        scene::set_form(tree, *recipe_.document.species[tree.species], form_at(block, tree.at), tree.clear_stem_m);
+      if (tree.status == scene::TreeStatus::to_remove) planting_.remove(tree.key);
+    }
+  }
+
+  // A block's form as it stands at a place: turned with its row, and in a hedge about the line that it follows.
+  static crowns::ClippedForm form_at(const PlantingRecipe& block, Vec2 at) {
+    crowns::ClippedForm form = block.order.form;
+    const bool hedge = block.kind == PlantingKind::hedge && block.row.sides == distribution::RowSides::on_line;
+    const bool in_row = block.kind == PlantingKind::row || block.kind == PlantingKind::hedge;
+    if (form.width_m == 0.0f)
+      form.width_m = in_row ? (hedge ? kHedgeOverlap : 1.0f) * block.row.spacing_m : block.grid.spacing_m;
+    if (form.depth_m == 0.0f) {
+      form.depth_m = form.kind == crowns::FormKind::panel ? kPanel_m : form.width_m;
+      if (hedge) form.depth_m = static_cast<float>(block.row.rows - 1) * block.row.row_gap_m + kHedge_m;
+    }
+    if (block.kind == PlantingKind::grid) form.rotation_deg += block.grid.rotation_deg;
+    if (in_row) {
+      const auto [foot, along] = nearest_on_line(block.line, at);
+      form.rotation_deg += degrees(atan2(along.y, along.x));
+      if (hedge) form.centre = foot - at;
+    }
+    return form;
+  }
+
+  // The point of a polyline nearest to `p`, and the direction of the piece it lies on.
+  static std::pair<Vec2, Vec2> nearest_on_line(const std::vector<Vec2>& line, Vec2 p) {
+    std::pair<Vec2, Vec2> best{line.front(), {1.0f, 0.0f}};
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const Vec2 piece = line[i] - line[i - 1];
+      const float length2 = glm::dot(piece, piece);
+      if (length2 == 0.0f) continue;
+      const Vec2 foot = line[i - 1] + std::clamp(glm::dot(p - line[i - 1], piece) / length2, 0.0f, 1.0f) * piece;
+      const float distance2 = glm::dot(p - foot, p - foot);
+      if (distance2 < least) least = distance2, best = {foot, piece};
+    }
+    return best;
+  }
+
   scene::Tree& add(const StandingTree& standing) {
     scene::Tree& tree = trees.emplace_back();
     tree.id = static_cast<std::int32_t>(trees.size());
@@ -215,11 +286,14 @@ class Planter {
   void plant_single(const PlantingRecipe& block) {
     const std::uint64_t key = distribution::tree_key(hash_text(block.name), 0);
     const std::uint32_t species = block.mix.front().species;
-    const auto refusal = distribution::plant_one(planting_, key, species, block.at, block.scale);
+    const float scale = block.order.form.clipped()
+                            ? scene::clipped_scale(*recipe_.document.species[species], block.order.form)
+                            : block.scale;
+    const auto refusal = distribution::plant_one(planting_, key, species, block.at, scale);
     // A tree that is set into a building by hand stays, and is warned about when the space is divided.
     const bool in_building = refusal == distribution::Refusal::excluded && !ground_.excluded(block.at);
     if (in_building)
-      planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, block.scale));
+      planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, scale));
     if (refusal == distribution::Refusal::none || in_building)
       add(*planting_.find(key));
     else

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "crowns/asymmetry.h"
 #include "growth/age.h"
+#include "growth/clipped.h"
 #include "growth/digest.h"
 #include "growth/grow.h"
 #include "growth/radii.h"
@@ -14,6 +17,13 @@
 
 namespace bosquet::scene {
 namespace {
+
+// Twigs end so far inside a clipped form, in sides of a twig cluster, that it is the leaves that reach its sides.
+constexpr float kFoliageShare = 0.4f;
+// A clipped tree is full, not tall: its own height limit lies so many voxels above the form.
+constexpr float kAboveForm = 3.0f;
+// However high the clear stem is ordered, some crown is left above it.
+constexpr float kHighestCrownBase = 0.9f;
 
 // Work grows about with the number of internodes, that is with crown volume over spacing; height to the square does.
 float growth_cost(const Document& document, const Tree& tree) {
@@ -29,6 +39,17 @@ GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::Cr
   input.parameters = &species.growth;
   input.max_height_m = document.mature_height_m(tree);
   input.region = region;
+  input.clear_stem_m = tree.clear_stem_m;
+  growth::Parameters sheared;
+  crowns::CrownRegion cut;
+  if (tree.form.clipped()) {
+    sheared = growth::clipped(species.growth, crowns::volume_m3(tree.form, tree.clear_stem_m));
+    cut = crowns::clip(region, tree.form, tree.clear_stem_m, kFoliageShare * species.look.leaf.cluster_m);
+    input.parameters = &sheared;
+    input.region = &cut;
+    input.max_height_m = tree.form.height_m + kAboveForm * cut.layer_m;
+    input.asymmetry = Vec3(0.0f);  // it is tied and cut straight
+  }
   input.light = light;
   input.asymmetry = asymmetry;
   input.detail = options.detail;
@@ -70,6 +91,16 @@ GrownTree grow_tree(const Document& document, const Tree& tree, const crowns::Cr
 
 }  // namespace
 
+Document without_removed(const Document& document) {
+  const auto removed = [](const Tree& tree) { return tree.status == TreeStatus::to_remove; };
+  if (std::none_of(document.trees->begin(), document.trees->end(), removed)) return document;
+  Document rest = document;
+  std::vector<Tree> standing = document.trees->to_vector();
+  std::erase_if(standing, removed);
+  rest.trees = std::make_shared<const Trees>(std::move(standing));
+  return rest;
+}
+
 std::size_t GrownScene::internodes() const {
   std::size_t sum = 0;
   for (const GrownTree& tree : trees) sum += static_cast<std::size_t>(tree.measures.internodes);
@@ -85,15 +116,24 @@ std::uint64_t GrownScene::skeleton_digest() const {
 std::vector<crowns::Claimant> claimants(const Document& document) {
   std::vector<crowns::Claimant> claims;
   claims.reserve(document.trees->size());
-  for (const Tree& tree : *document.trees)
-    claims.push_back({tree.key, tree.id, tree.at, document.terrain->ground(tree.at), document.species_of(tree).shape,
-                      tree.scale_height, tree.scale_width});
+  for (const Tree& tree : *document.trees) {
+    crowns::RepresentativeShape shape = document.species_of(tree).shape;
+    // The crown, and with it the foliage that shades others, begins at the clear stem.
+    if (tree.clear_stem_m > 0.0f || tree.form.clipped())
+      shape.trunk_height_m = std::min(
+          std::max(tree.form.clipped() ? 0.0f : shape.trunk_height_m, tree.clear_stem_m / tree.scale_height),
+          kHighestCrownBase * shape.mature_height_m);
+    claims.push_back({tree.key, tree.id, tree.at, document.terrain->ground(tree.at), shape, tree.scale_height,
+                      tree.scale_width});
+  }
   return claims;
 }
 
-Result<GrownScene> grow_scene(const Document& document, const GrowOptions& options, Progress* progress) {
+Result<GrownScene> grow_scene(const Document& given, const GrowOptions& options, Progress* progress) {
   GrownScene scene;
-  scene.document = document;
+  scene.given = given;
+  scene.document = without_removed(given);
+  const Document& document = scene.document;
   const Trees& trees = *document.trees;
   const Error cancelled = cannot_finish("cancelled; nothing was written");
 

@@ -2,6 +2,7 @@
 //
 // Model     divide_space, asymmetry, canopy light, then every tree grown alone and in parallel (Longay 2014, 6.1); the
 //           stages of the source's comparisons can be switched off one by one
+// Decision  a clipped tree grows only inside its form, all its buds breaking, until the form is full
 // Holds     the same document and options give the same skeletons for any number of threads
 // Errors    a crown space too large for memory; cancelled work (kind cannot_finish)
 #pragma once
@@ -44,7 +45,8 @@ struct GrownTree {
 using Seconds = std::map<std::string, double>;
 
 struct GrownScene {
-  Document document;
+  Document given;     ///< as it came
+  Document document;  ///< the same without the trees to be removed: they take no room in the scene and are not grown
   crowns::CrownSpace space;
   crowns::CanopyLight light;     ///< empty when canopy light is off
   std::vector<GrownTree> trees;  ///< in the document's order
@@ -54,6 +56,9 @@ struct GrownScene {
   std::size_t internodes() const;         ///< living
   std::uint64_t skeleton_digest() const;  ///< over all skeletons, in the document's order
 };
+
+/// The document without its trees to be removed.
+Document without_removed(const Document& document);
 
 /// The trees as crowns/ sees them, in the document's order.
 std::vector<crowns::Claimant> claimants(const Document& document);
