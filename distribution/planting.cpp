@@ -61,6 +61,8 @@ std::string_view words(Refusal refusal) {
       return "in an excluded area";
     case Refusal::under_water:
       return "under water";
+    case Refusal::built_over:
+      return "where something is built";
     case Refusal::too_steep:
       return "on too steep ground";
     case Refusal::too_low:
@@ -74,9 +76,10 @@ std::string_view words(Refusal refusal) {
 }
 
 Result<Planting> Planting::make(Terrain terrain, std::vector<Species> species,
-                                std::span<const Interaction> interactions, float cell_m) {
+                                std::span<const Interaction> interactions, float cell_m, Barriers barriers) {
   Planting p;
   p.terrain_ = std::move(terrain);
+  p.barriers_ = std::move(barriers);
   p.species_ = std::move(species);
   const std::size_t count = p.species_.size();
   for (std::size_t n = 0; n < count; ++n) {
@@ -183,9 +186,21 @@ bool Planting::move(std::uint64_t key, Vec2 to) {
   if (!standing) return false;
   StandingTree tree = *standing;
   tree.at = to;
-  remove(key);
+  return replace(tree);
+}
+
+bool Planting::replace(const StandingTree& tree) {
+  if (!remove(tree.key)) return false;
   add(tree);
   return true;
+}
+
+std::vector<std::uint64_t> Planting::keys_in(const Region& region) const {
+  std::vector<std::uint64_t> keys;
+  for (const StandingTree& tree : trees_)
+    if (contains(region, tree.at)) keys.push_back(tree.key);
+  std::sort(keys.begin(), keys.end());
+  return keys;
 }
 
 bool Planting::too_near(const StandingTree& tree, bool trunks_only) const {
@@ -200,22 +215,27 @@ bool Planting::too_near(const StandingTree& tree, bool trunks_only) const {
   });
 }
 
-Refusal Planting::refusal_by_ground(Vec2 at) const {
+bool Planting::may_be_wet() const {
+  return terrain_.has_ponds() || (terrain_.water_level_m && heights_.low < *terrain_.water_level_m);
+}
+
+Refusal Planting::refusal_by_ground(const StandingTree& tree) const {
+  const Vec2 at = tree.at;
   if (!terrain::on_site(terrain_, at)) return Refusal::outside_site;
+  if (may_be_wet() && terrain_.under_water(at)) return Refusal::under_water;
   if (terrain_.excluded(at)) return Refusal::excluded;
-  if (terrain_.water_level_m && heights_.low < *terrain_.water_level_m && terrain_.under_water(at))
-    return Refusal::under_water;
+  if (barriers_.holds(at, tree.trunk_radius_m)) return Refusal::built_over;
   return Refusal::none;
 }
 
 Refusal Planting::refusal_by_hand(const StandingTree& tree) const {
-  const Refusal ground = refusal_by_ground(tree.at);
+  const Refusal ground = refusal_by_ground(tree);
   if (ground != Refusal::none) return ground;
   return too_near(tree, true) ? Refusal::too_near : Refusal::none;
 }
 
 Refusal Planting::refusal(const StandingTree& tree) const {
-  const Refusal ground = refusal_by_ground(tree.at);
+  const Refusal ground = refusal_by_ground(tree);
   if (ground != Refusal::none) return ground;
   const PlantingRules& rules = species_[tree.species].rules;
   if (heights_.low < rules.min_altitude_m && terrain_.ground(tree.at) < rules.min_altitude_m) return Refusal::too_low;
@@ -228,14 +248,15 @@ Refusal Planting::refusal(const StandingTree& tree) const {
 std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
   const PlantingRules& rules = species_[species].rules;
   // What can be told for the whole site at once is not asked of every cell; none means: all suit fully.
-  const bool water = terrain_.water_level_m && heights_.low < *terrain_.water_level_m;
+  const bool water = may_be_wet();
   const bool low = heights_.low<rules.min_altitude_m, high = heights_.high> rules.max_altitude_m;
   const float rise = steepest_allowed_[species];
   const bool steep = steepest_ > rise;
   const bool exclusions = !everywhere(terrain_.exclusion, 0), thinned = !everywhere(terrain_.density, 255);
 
   const bool last_on_site = terrain::on_site(terrain_, (Vec2(cells_) - 0.5f) * cell_m_);
-  if (last_on_site && !water && !low && !high && !steep && !exclusions && !thinned) return {};
+  const bool barred = !barriers_.empty();
+  if (last_on_site && !water && !low && !high && !steep && !exclusions && !thinned && !barred) return {};
 
   const auto width = static_cast<std::size_t>(cells_.x);
   std::vector<std::uint8_t> suits(width * static_cast<std::size_t>(cells_.y), 255);
@@ -243,13 +264,14 @@ std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
     for (std::size_t i = 0; i < width; ++i) {
       const Vec2 at = (Vec2(i, j) + 0.5f) * cell_m_;
       std::uint8_t& suit = suits[j * width + i];
-      if (!terrain::on_site(terrain_, at) || (exclusions && terrain_.excluded(at))) {
+      if (!terrain::on_site(terrain_, at) || (exclusions && terrain_.excluded(at)) ||
+          (barred && barriers_.holds(at))) {
         suit = 0;
         continue;
       }
       if (water || low || high) {
         const float ground = terrain_.ground(at);
-        if ((water && ground < *terrain_.water_level_m) || ground < rules.min_altitude_m ||
+        if ((water && terrain_.under_water(at)) || ground < rules.min_altitude_m ||
             ground > rules.max_altitude_m) {
           suit = 0;
           continue;

@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "core/result.h"
+#include "distribution/barriers.h"
 #include "distribution/kernels.h"
 #include "distribution/probability_field.h"
+#include "distribution/region.h"
 #include "distribution/species.h"
 #include "distribution/tree_index.h"
 #include "terrain/terrain.h"
@@ -25,7 +27,7 @@
 namespace bosquet::distribution {
 
 /// Why a tree is not planted somewhere.
-enum class Refusal { none, outside_site, excluded, under_water, too_steep, too_low, too_high, too_near };
+enum class Refusal { none, outside_site, excluded, under_water, built_over, too_steep, too_low, too_high, too_near };
 
 /// As in "left out: ...".
 std::string_view words(Refusal refusal);
@@ -35,16 +37,19 @@ class Planting {
   /// `cell_m` of the fields; 0 chooses max(0.125 m, longest side / 1024). An interaction that names a species not in
   /// the list, two for the same pair, rules whose low exceeds their high, and two species of one name are errors.
   static Result<Planting> make(terrain::Terrain terrain, std::vector<Species> species,
-                               std::span<const Interaction> interactions, float cell_m = 0.0f);
+                               std::span<const Interaction> interactions, float cell_m = 0.0f, Barriers barriers = {});
 
   /// Adds a tree as it is, asking no rule. Its key must be new.
   void add(const StandingTree& tree);
   /// False when no tree has the key.
   bool remove(std::uint64_t key);
   bool move(std::uint64_t key, Vec2 to);
+  /// Another size, species or place for the tree of this key, asking no rule; false when no tree has it.
+  bool replace(const StandingTree& tree);
 
   const StandingTree* find(std::uint64_t key) const;
-  std::span<const StandingTree> trees() const { return trees_; }  ///< in no promised order
+  std::span<const StandingTree> trees() const { return trees_; }   ///< in no promised order
+  std::vector<std::uint64_t> keys_in(const Region& region) const;  ///< sorted
   const std::vector<Species>& species() const { return species_; }
   std::optional<std::uint32_t> species_index(std::string_view name) const;
   std::uint64_t name_hash(std::uint32_t species) const { return name_hashes_[species]; }
@@ -54,7 +59,8 @@ class Planting {
   /// overlooked.
   Refusal refusal(const StandingTree& tree) const;
 
-  /// The same for a place that somebody chose: only the site's edge, exclusions, water and other trunks count.
+  /// The same for a place that somebody chose: only the site's edge, exclusions, water, barriers and
+  /// other trunks count.
   Refusal refusal_by_hand(const StandingTree& tree) const;
 
   /// The field of a species, made when first asked for.
@@ -70,12 +76,14 @@ class Planting {
     KernelTable log2_kernel{};
   };
   bool too_near(const StandingTree& tree, bool trunks_only) const;
-  Refusal refusal_by_ground(Vec2 at) const;
+  bool may_be_wet() const;
+  Refusal refusal_by_ground(const StandingTree& tree) const;
   Stamp stamp(const StandingTree& tree, std::uint32_t on) const;
   const Pair& pair(std::uint32_t of, std::uint32_t on) const { return pairs_[of * species_.size() + on]; }
   std::vector<std::uint8_t> suitability(std::uint32_t species) const;
 
   terrain::Terrain terrain_;
+  Barriers barriers_;
   std::vector<Species> species_;
   std::vector<Pair> pairs_;              // [of * species + on]
   std::vector<float> most_;              // of each species: largest factor that clustering makes in its field

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <unordered_map>
 
 #include "core/parallel.h"
@@ -56,14 +58,26 @@ Samples sample(const terrain::Terrain& terrain, const GroundOptions& options) {
   return s;
 }
 
+/// Colour of what covers the ground where planting is barred; `open` is what it would be else.
+Vec3 cover_colour(const terrain::Terrain& terrain, Vec2 plan, const Vec3& open) {
+  if (terrain.areas.empty()) return kGravelColour;
+  const std::array<Vec3, 5> colours{open, kGravelColour, kPavingColour, kLawnColour, kSoilColour};  // as terrain::Cover
+  const terrain::CoverShares shares = terrain.covers(plan);
+  Vec3 sum{0.0f};
+  float barred = 0.0f;
+  for (std::size_t c = 0; c < shares.size(); ++c) sum += shares[c] * colours[c], barred += shares[c];
+  return barred > 0.0f ? sum / barred : open;
+}
+
 Rgba8 colour_at(const terrain::Terrain& terrain, const GroundOptions& options, Vec2 plan, float height,
                 const Vec3& normal) {
   const float shade = options.shade ? std::clamp(options.shade(plan), 0.0f, 1.0f) : 0.0f;
   Vec3 albedo = glm::mix(kMeadowColour, kForestFloorColour, shade);
   albedo = glm::mix(kSoilColour, albedo, step_between(kVerySteep, kSteep, normal.y));
-  albedo = glm::mix(albedo, kGravelColour, step_between(0.25f, 0.75f, terrain.exclusion.at(plan)));
-  if (terrain.water_level_m) {
-    const float rise = height - *terrain.water_level_m;
+  if (const float barred = terrain.exclusion.at(plan); barred > 0.0f)
+    albedo = glm::mix(albedo, cover_colour(terrain, plan, albedo), step_between(0.25f, 0.75f, barred));
+  if (const std::optional<float> level = terrain.water_level(plan)) {
+    const float rise = height - *level;
     albedo = glm::mix(kWetSandColour, albedo, step_between(0.25f * kWetRise_m, kWetRise_m, rise));
     albedo *= glm::mix(0.55f, 1.0f, step_between(-0.8f, 0.0f, rise));  // darker with depth
   }
@@ -92,6 +106,57 @@ void add_wall(TriangleMesh& mesh, const Samples& s, int i, int j, int di, int dj
     const std::uint32_t a = first + 2u * static_cast<std::uint32_t>(k - 1);  // top, bottom, next top, next bottom
     mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 2, a + 1, a + 3, a + 2});
   }
+}
+
+// The surface at a level over the cells of the samples that hold it.
+void add_water(TriangleMesh& mesh, const Samples& s, float level, const std::function<bool(int, int)>& holds) {
+  // Vertices at ground samples under water and at points where edges of the ground pass the level.
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> at_sample(s.height.size(), kNone);
+  std::unordered_map<std::uint64_t, std::uint32_t> at_edge;
+  const auto vertex = [&](Vec2 plan) {
+    mesh.positions.push_back(to_world(plan, level));
+    mesh.normals.push_back(kUp);
+    mesh.uvs.push_back(uv_at(plan));
+    mesh.colours.push_back({255, 255, 255, 255});
+    return static_cast<std::uint32_t>(mesh.positions.size()) - 1;
+  };
+
+  const auto clip = [&](const std::array<IVec2, 3>& corners) {
+    std::array<std::uint32_t, 4> polygon{};
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const IVec2 a = corners[k], b = corners[(k + 1) % 3];
+      const std::size_t ia = s.index(a.x, a.y), ib = s.index(b.x, b.y);
+      const float ha = s.height[ia], hb = s.height[ib];
+      if (ha < level) {
+        if (at_sample[ia] == kNone) at_sample[ia] = vertex(s.plan(a.x, a.y));
+        polygon[n++] = at_sample[ia];
+      }
+      if ((ha < level) != (hb < level)) {
+        // From the lower end, so that both triangles at an edge find the same point.
+        const bool up = ha < level;
+        const std::uint64_t edge = static_cast<std::uint64_t>(std::min(ia, ib)) << 32 | std::max(ia, ib);
+        const auto [it, fresh] = at_edge.try_emplace(edge, kNone);
+        if (fresh) {
+          const Vec2 low = up ? s.plan(a.x, a.y) : s.plan(b.x, b.y), high = up ? s.plan(b.x, b.y) : s.plan(a.x, a.y);
+          // Kept off the ends: a shore through a sample would make triangles without area.
+          const float t = std::clamp((level - std::min(ha, hb)) / std::abs(hb - ha), 0.001f, 0.999f);
+          it->second = vertex(glm::mix(low, high, t));
+        }
+        polygon[n++] = it->second;
+      }
+    }
+    for (std::size_t k = 2; k < n; ++k)
+      mesh.indices.insert(mesh.indices.end(), {polygon[0], polygon[k - 1], polygon[k]});
+  };
+
+  for (int j = 0; j < s.ny; ++j)
+    for (int i = 0; i < s.nx; ++i) {
+      if (!holds(i, j)) continue;
+      clip({IVec2{i, j}, IVec2{i + 1, j}, IVec2{i, j + 1}});
+      clip({IVec2{i + 1, j}, IVec2{i + 1, j + 1}, IVec2{i, j + 1}});
+    }
 }
 
 }  // namespace
@@ -149,56 +214,22 @@ std::vector<TriangleMesh> mesh_ground(const terrain::Terrain& terrain, const Gro
 
 TriangleMesh mesh_water(const terrain::Terrain& terrain, const GroundOptions& options) {
   TriangleMesh mesh;
-  if (!terrain.water_level_m) return mesh;
-  const float level = *terrain.water_level_m;
+  if (!terrain.has_water()) return mesh;
   const Samples s = sample(terrain, options);
-
-  // Vertices at ground samples under water and at points where edges of the ground pass the level.
-  constexpr std::uint32_t kNone = 0xffffffff;
-  std::vector<std::uint32_t> at_sample(s.height.size(), kNone);
-  std::unordered_map<std::uint64_t, std::uint32_t> at_edge;
-  const auto vertex = [&](Vec2 plan) {
-    mesh.positions.push_back(to_world(plan, level));
-    mesh.normals.push_back(kUp);
-    mesh.uvs.push_back(uv_at(plan));
-    mesh.colours.push_back({255, 255, 255, 255});
-    return static_cast<std::uint32_t>(mesh.positions.size()) - 1;
-  };
-
-  const auto clip = [&](const std::array<IVec2, 3>& corners) {
-    std::array<std::uint32_t, 4> polygon{};
-    std::size_t n = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const IVec2 a = corners[k], b = corners[(k + 1) % 3];
-      const std::size_t ia = s.index(a.x, a.y), ib = s.index(b.x, b.y);
-      const float ha = s.height[ia], hb = s.height[ib];
-      if (ha < level) {
-        if (at_sample[ia] == kNone) at_sample[ia] = vertex(s.plan(a.x, a.y));
-        polygon[n++] = at_sample[ia];
-      }
-      if ((ha < level) != (hb < level)) {
-        // From the lower end, so that both triangles at an edge find the same point.
-        const bool up = ha < level;
-        const std::uint64_t edge = static_cast<std::uint64_t>(std::min(ia, ib)) << 32 | std::max(ia, ib);
-        const auto [it, fresh] = at_edge.try_emplace(edge, kNone);
-        if (fresh) {
-          const Vec2 low = up ? s.plan(a.x, a.y) : s.plan(b.x, b.y), high = up ? s.plan(b.x, b.y) : s.plan(a.x, a.y);
-          // Kept off the ends: a shore through a sample would make triangles without area.
-          const float t = std::clamp((level - std::min(ha, hb)) / std::abs(hb - ha), 0.001f, 0.999f);
-          it->second = vertex(glm::mix(low, high, t));
-        }
-        polygon[n++] = it->second;
-      }
-    }
-    for (std::size_t k = 2; k < n; ++k)
-      mesh.indices.insert(mesh.indices.end(), {polygon[0], polygon[k - 1], polygon[k]});
-  };
-
-  for (int j = 0; j < s.ny; ++j)
-    for (int i = 0; i < s.nx; ++i) {
-      clip({IVec2{i, j}, IVec2{i + 1, j}, IVec2{i, j + 1}});
-      clip({IVec2{i + 1, j}, IVec2{i + 1, j + 1}, IVec2{i, j + 1}});
-    }
+  if (terrain.water_level_m) add_water(mesh, s, *terrain.water_level_m, [](int, int) { return true; });
+  if (!terrain.has_ponds()) return mesh;
+  for (const terrain::Area& area : terrain.areas.all()) {
+    if (!area.water_level_m) continue;
+    // Cells of the mesh that a corner or the middle of shows in the pond; under the site's level there is no other.
+    const auto in_pond = [&](Vec2 plan) {
+      const auto level = terrain.water_level(plan);
+      return level && *level == *area.water_level_m && level != terrain.water_level_m;
+    };
+    add_water(mesh, s, *area.water_level_m, [&](int i, int j) {
+      return in_pond(s.plan(i, j)) || in_pond(s.plan(i + 1, j)) || in_pond(s.plan(i, j + 1)) ||
+             in_pond(s.plan(i + 1, j + 1)) || in_pond(0.5f * (s.plan(i, j) + s.plan(i + 1, j + 1)));
+    });
+  }
   return mesh;
 }
 

@@ -2,9 +2,11 @@
 //
 // Model     heights are read on a square grid of one step, the smallest multiple of the terrain's cell that keeps to
 //           the budget; normals are the heightfield's. Water covers, cell by cell, the part of each ground triangle
-//           that lies below the level (exact clip), so both meet along one line
-// Colour    linear, tints the ground texture (ground_tint() of ground_texture.h): meadow, path where planting is
-//           excluded, forest floor under trees where the caller says so, wet sand at the water's edge, mud below
+//           that lies below the level (exact clip), so both meet along one line; a pond's own level is held by the
+//           cells that its outline touches
+// Colour    linear, tints the ground texture (ground_tint() of ground_texture.h): meadow, the areas' covers (gravel,
+//           paving, lawn, soil) where planting is excluded, forest floor under trees where the caller says so, wet
+//           sand at the water's edge, mud below
 // UV        metres / kGroundTileM, u east, v south
 // Frame     world (x east, y up, z = -north)
 // Holds     triangles are counter-clockwise seen from above; chunks meet without gap (shared edge samples)
