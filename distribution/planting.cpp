@@ -264,15 +264,13 @@ std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
     for (std::size_t i = 0; i < width; ++i) {
       const Vec2 at = (Vec2(i, j) + 0.5f) * cell_m_;
       std::uint8_t& suit = suits[j * width + i];
-      if (!terrain::on_site(terrain_, at) || (exclusions && terrain_.excluded(at)) ||
-          (barred && barriers_.holds(at))) {
+      if (!terrain::on_site(terrain_, at) || (exclusions && terrain_.excluded(at)) || (barred && barriers_.holds(at))) {
         suit = 0;
         continue;
       }
       if (water || low || high) {
         const float ground = terrain_.ground(at);
-        if ((water && terrain_.under_water(at)) || ground < rules.min_altitude_m ||
-            ground > rules.max_altitude_m) {
+        if ((water && terrain_.under_water(at)) || ground < rules.min_altitude_m || ground > rules.max_altitude_m) {
           suit = 0;
           continue;
         }

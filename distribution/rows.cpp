@@ -27,7 +27,7 @@ std::vector<Vec2> without_repeats(std::span<const Vec2> line) {
 
 // The line moved to its left by `offset`, corners mitred.
 std::vector<Vec2> offset_line(const std::vector<Vec2>& line, float offset) {
-  if (offset == 0.0f || line.size() < 2) return line;
+  if (offset == 0.0f) return line;
   std::vector<Vec2> out(line.size());
   for (std::size_t n = 0; n < line.size(); ++n) {
     const Vec2 in = unit_or_zero(n > 0 ? line[n] - line[n - 1] : line[1] - line[0]);
@@ -40,7 +40,6 @@ std::vector<Vec2> offset_line(const std::vector<Vec2>& line, float offset) {
 }
 
 void walk(const std::vector<Vec2>& line, float begin, float spacing, std::vector<Vec2>& places) {
-  if (line.size() == 1 && begin == 0.0f) places.push_back(line[0]);
   double next = begin, so_far = 0.0;  // along the line
   std::size_t planted = 0;
   for (std::size_t n = 1; n < line.size(); ++n) {
@@ -62,8 +61,8 @@ Error too_many(double count) {
 
 Result<std::vector<Vec2>> row_places(std::span<const Vec2> points, const RowRules& rules) {
   const std::vector<Vec2> line = without_repeats(points);
+  if (line.size() < 2) return Error{"a row needs at least two different points"};
   std::vector<Vec2> places;
-  if (line.empty()) return places;
   assert(rules.spacing_m > 0.0f && rules.rows > 0);
   double length = 0.0;
   for (std::size_t n = 1; n < line.size(); ++n) length += glm::distance(line[n - 1], line[n]);

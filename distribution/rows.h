@@ -83,7 +83,8 @@ struct Planted {
   std::vector<LeftOut> left_out;
 };
 
-/// Places of the rows along a polyline, jitter not yet applied. More than kMostPlaces are an error.
+/// Places of the rows along a polyline, jitter not yet applied. A line without two different points, and more places
+/// than kMostPlaces, are errors.
 inline constexpr std::size_t kMostPlaces = 1'000'000;
 Result<std::vector<Vec2>> row_places(std::span<const Vec2> line, const RowRules& rules);
 

@@ -1,5 +1,7 @@
 #include "distribution/sowing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -108,6 +110,24 @@ std::optional<RegionMask> mask_of(Planting& planting, const Sowing& what, const 
 }
 
 }  // namespace
+
+Result<void> check(const Planting& planting, const Sowing& what) {
+  if (what.mix.empty()) return Error{"no species is chosen"};
+  bool any = false;
+  for (const MixEntry& entry : what.mix) {
+    if (entry.species >= planting.species().size())
+      return Error{fmt::format("species number {} of the mix: there are {}", entry.species, planting.species().size())};
+    const std::string& name = planting.species()[entry.species].name;
+    if (!(entry.probability >= 0.0f) || std::isinf(entry.probability))
+      return Error{fmt::format("the share of {} is {}; 0 or more is allowed", name, entry.probability)};
+    if (!(entry.scale_min >= 0.0f && entry.scale_min <= entry.scale_max) || std::isinf(entry.scale_max))
+      return Error{fmt::format("the scales of {} are {} to {}; smallest and largest are needed, in this order", name,
+                               entry.scale_min, entry.scale_max)};
+    any = any || entry.probability > 0.0f;
+  }
+  if (!any) return Error{"the shares of all species are 0; one must be larger"};
+  return {};
+}
 
 std::optional<std::size_t> draw_type(const Planting& planting, const Sowing& what, std::uint64_t key,
                                      const std::vector<bool>& full) {

@@ -7,6 +7,7 @@
 //           that the exact rule refuses is drawn again; after 64 refusals a cell counts as full until the call ends
 // Rate      a brush of radius R and strength q plants rate * q * R^2 trees a second (rate in trees per m2 and s)
 //           and one when it touches the ground, in steps of 1/60 s of recorded time, never by the display's clock
+// Errors    a mix that plants nothing, by check(); planting with it plants nothing
 // Holds     the same seed, block and planting give the same trees; each tree's numbers hang on its key alone
 #pragma once
 
@@ -19,6 +20,7 @@
 
 #include "core/parameter.h"
 #include "core/progress.h"
+#include "core/result.h"
 #include "distribution/planting.h"
 #include "distribution/region.h"
 
@@ -43,6 +45,9 @@ struct Sowing {
   std::uint64_t first_index = 0;  ///< of its first tree
   std::vector<MixEntry> mix;
 };
+
+/// Whether anything can be sown: types, at least one of them likelier than never, and scales in order.
+Result<void> check(const Planting& planting, const Sowing& what);
 
 /// What came of it.
 struct Sown {

@@ -70,4 +70,10 @@ inline std::uint64_t tree_key(std::uint64_t block, std::uint64_t index) {
   return Hasher().add(block).add(index).digest();
 }
 
+/// Block of the n-th use of a tool in a document: each has keys of its own, so that undoing one, or drawing it again,
+/// leaves the trees of the others as they are.
+inline std::uint64_t block_of_use(std::uint64_t number) {
+  return Hasher().add(std::string_view("planting by hand")).add(number).digest();
+}
+
 }  // namespace bosquet::distribution

@@ -43,8 +43,7 @@ RC_GTEST_PROP(FieldBlocks, WiderInstructionsGiveTheSameBits, ()) {
     stamp_blocks_plainly(plain, stamp, sign, {0, 0}, count - 1);
     RC_ASSERT(wide == plain);
   }
-  for (std::size_t b = 0; b < wide.sums.size(); ++b)
-    RC_ASSERT(wide.sums[b] == block_sum(wide, b));
+  for (std::size_t b = 0; b < wide.sums.size(); ++b) RC_ASSERT(wide.sums[b] == block_sum(wide, b));
 }
 
 TEST(FieldBlocks, AWeightIsTwoToItsSumsBetweenItsLimits) {

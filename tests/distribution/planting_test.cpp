@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "distribution/inventory.h"
@@ -16,6 +17,8 @@ namespace {
 terrain::Terrain flat(Vec2 size_m) {
   return terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice(size_m)));
 }
+
+constexpr std::span<const Interaction> kNone;
 
 Species species(const char* name, PlantingRules rules = {}) { return {name, 0.4f, rules}; }
 
@@ -261,6 +264,109 @@ TEST(Planting, TreesUnderANewExclusionStayAndAreListed) {
   EXPECT_FALSE(expected.empty());
   EXPECT_EQ(displaced(path, p.trees()), expected);
   EXPECT_TRUE(displaced(p.terrain(), p.trees()).empty());
+}
+
+TEST(Planting, NothingIsSownIntoBuildingsUnderMeshesOrAgainstTheirWalls) {
+  Barriers barriers({40, 40});
+  barriers.add(Polygon{{{5, 5}, {15, 5}, {15, 12}}, {}});
+  barriers.add(Disc{{30, 10}, 4});
+  barriers.add_triangle({Vec2{22, 22}, {39, 24}, {25, 39}});
+  barriers.add_triangle({Vec2{3, 30}, {12, 36.5f}, {3, 30}});  // an upright wall: a line in plan
+  const Polygon roof{{{22, 22}, {39, 24}, {25, 39}}, {}};
+  auto made = Planting::make(flat({40, 40}), {species("a")}, kNone, 0, barriers);
+  Planting& p = *made;
+  const Sown sown = sow(p, {.seed = 1, .block = 1, .mix = {{0}}}, whole(p), 600);
+  ASSERT_EQ(sown.trees.size(), 600u);
+  const auto from_line = [](Vec2 at, Vec2 a, Vec2 b) {
+    const Vec2 along = glm::normalize(b - a);
+    const float share = glm::clamp(glm::dot(at - a, along), 0.0f, glm::distance(a, b));
+    return glm::distance(at, a + share * along);
+  };
+  for (const StandingTree& tree : sown.trees) {
+    EXPECT_FALSE((Polygon{{{5, 5}, {15, 5}, {15, 12}}, {}}).contains(tree.at));
+    EXPECT_GE(from_line(tree.at, {5, 5}, {15, 5}), tree.trunk_radius_m);
+    EXPECT_GE(glm::distance(tree.at, {30, 10}), 4 + tree.trunk_radius_m);
+    EXPECT_FALSE(roof.contains(tree.at));
+    EXPECT_GE(from_line(tree.at, {3, 30}, {12, 36.5f}), tree.trunk_radius_m);
+  }
+  // What no barrier touches stays open: about as dense right beside them as anywhere.
+  EXPECT_EQ(p.refusal_by_hand(standing_tree(1, 0, species("a"), {10, 5.2f}, 1)), Refusal::built_over);
+  EXPECT_EQ(p.refusal_by_hand(standing_tree(1, 0, species("a"), {39.7f, 23.2f}, 1)), Refusal::none);
+  EXPECT_EQ(p.refusal_by_hand(standing_tree(1, 0, species("a"), {10, 30}, 1)), Refusal::none);
+}
+
+TEST(Planting, ATreeMadeLargerOrOfAnotherSpeciesIsAsIfItHadBeenPlantedSo) {
+  Planting p = planting(flat({20, 20})), q = planting(flat({20, 20}));
+  p.field(0), p.field(1);
+  sow(p, {.seed = 3, .block = 9, .mix = {{0}, {1}}}, whole(p), 20);
+  StandingTree tree = p.trees()[7];
+  tree.species = 1 - tree.species, tree.scale *= 2, tree.trunk_radius_m *= 2;
+  EXPECT_TRUE(p.replace(tree));
+  EXPECT_FALSE(p.replace(standing_tree(99, 0, species("a"), {1, 1}, 1)));
+  for (const StandingTree& t : p.trees()) q.add(t);
+  EXPECT_EQ(p.field(0), q.field(0));
+  EXPECT_EQ(p.field(1), q.field(1));
+}
+
+TEST(Planting, KeysInARegionAreThoseOfTheTreesThere) {
+  Planting p = planting(flat({20, 20}));
+  sow(p, {.seed = 3, .block = 9, .mix = {{0}, {1}}}, whole(p), 60);
+  const Region lasso = Polygon{{{2, 2}, {18, 4}, {9, 17}}, {}};
+  const auto keys = p.keys_in(lasso);
+  EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+  std::size_t inside = 0;
+  for (const StandingTree& tree : p.trees()) {
+    inside += contains(lasso, tree.at);
+    EXPECT_EQ(std::binary_search(keys.begin(), keys.end(), tree.key), contains(lasso, tree.at));
+  }
+  EXPECT_EQ(keys.size(), inside);
+  EXPECT_GT(inside, 0u);
+}
+
+TEST(Sowing, AMixThatPlantsNothingIsAnErrorThatSaysWhy) {
+  const Planting p = planting(flat({20, 20}));
+  const auto message = [&](std::vector<MixEntry> mix) {
+    const auto done = check(p, {.mix = std::move(mix)});
+    return done ? std::string() : done.error().message;
+  };
+  EXPECT_EQ(message({{0, 1}, {1, 0}}), "");
+  EXPECT_NE(message({}).find("no species"), std::string::npos);
+  EXPECT_NE(message({{0, 0}, {1, 0}}).find("all species are 0"), std::string::npos);
+  EXPECT_NE(message({{0, -1}}).find("share of a is -1"), std::string::npos);
+  EXPECT_NE(message({{0, std::numeric_limits<float>::quiet_NaN()}}).find("share of a"), std::string::npos);
+  EXPECT_NE(message({{7, 1}}).find("there are 2"), std::string::npos);
+  EXPECT_NE(message({{0, 1, 2.0f, 1.0f}}).find("scales of a"), std::string::npos);
+}
+
+TEST(Sowing, UndoingAStrokeOrPaintingItOtherwiseLeavesTheTreesOfAllOthers) {
+  // Each use of a tool has a block of its own. Trees stand once they are planted, so only keys and the strokes that
+  // come later could be reshuffled, and these keep their keys, types and scales whatever went before.
+  const auto stroke = [](Planting& p, std::uint64_t number, Vec2 from, Vec2 to) {
+    return sow_stroke(p, {.seed = 1, .block = block_of_use(number), .mix = {{0}, {1}}}, {6, 1, 0.4f},
+                      steady_stroke(std::vector<Vec2>{from, to}, 3))
+        .trees;
+  };
+  Planting all = planting(flat({100, 100})), without = planting(flat({100, 100}));
+  const auto first = stroke(all, 1, {20, 20}, {80, 20}), second = stroke(all, 2, {20, 26}, {80, 26});
+  const auto third = stroke(all, 3, {20, 80}, {80, 80});
+  EXPECT_EQ(stroke(without, 1, {20, 20}, {80, 20}), first);
+  EXPECT_EQ(stroke(without, 3, {20, 80}, {80, 80}), third);  // far from the second: the same trees to the bit
+
+  Planting later = planting(flat({100, 100}));
+  const auto alone = stroke(later, 2, {20, 26}, {80, 26});  // without the first, whose kernels reach it
+  ASSERT_EQ(alone.size(), second.size());
+  for (std::size_t n = 0; n < alone.size(); ++n) {
+    EXPECT_EQ(alone[n].key, second[n].key);
+    EXPECT_EQ(alone[n].species, second[n].species);
+    EXPECT_EQ(alone[n].scale, second[n].scale);
+  }
+  for (const StandingTree& tree : first) EXPECT_EQ(*all.find(tree.key), tree);  // nothing moved under later strokes
+
+  std::vector<std::uint64_t> keys;
+  for (std::uint64_t use = 0; use < 300; ++use)
+    for (std::uint64_t n = 0; n < 300; ++n) keys.push_back(tree_key(block_of_use(use), n));
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
 TEST(Inventory, DuplicatesAreMovedApartByTheSumOfTheirTrunksAndNothingElseIsMoved) {

@@ -58,6 +58,24 @@ TEST(Rows, AGridFillsItsRegionAndTurnsAboutItsMiddle) {
   EXPECT_TRUE(middle && along);
 }
 
+TEST(Rows, ARowOfFewerThanTwoPointsIsAnError) {
+  for (const std::vector<Vec2>& line : {std::vector<Vec2>{}, {{3, 4}}, {{3, 4}, {3, 4}, {3, 4}}}) {
+    const auto places = row_places(line, {});
+    ASSERT_FALSE(places);
+    EXPECT_EQ(places.error().message, "a row needs at least two different points");
+  }
+}
+
+TEST(Rows, ARowEndsInATreeWhereItsLengthIsAMultipleOfItsSpacing) {
+  for (const float spacing : {0.1f, 0.3f, 0.7f, 8.0f}) {
+    const Vec2 end = Vec2{3, 4} + 60.0f * spacing * Vec2{0.6f, 0.8f};
+    const auto places =
+        *row_places(std::vector<Vec2>{{3, 4}, {3 + 6 * spacing, 4 + 8 * spacing}, end}, {.spacing_m = spacing});
+    ASSERT_EQ(places.size(), 61u) << spacing;
+    EXPECT_LT(glm::distance(places.back(), end), 0.01f * spacing);
+  }
+}
+
 TEST(Rows, PatternsOfAbsurdNumberAreRefused) {
   EXPECT_FALSE(grid_places(Box2{{0, 0}, {200'000, 200'000}}, {.spacing_m = 0.1f, .row_gap_m = 0.1f}));
   EXPECT_FALSE(row_places(std::vector<Vec2>{{0, 0}, {200'000, 0}}, {.spacing_m = 0.1f}));
