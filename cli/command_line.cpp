@@ -109,6 +109,18 @@ void add_scene(CLI::App* app, Options& o) {
       ->option_text("N");
 }
 
+void add_gltf(CLI::App* app, Options& o) {
+  app->add_option("--instancing", o.instancing, "on: leaves as instances (EXT_mesh_gpu_instancing, required)")
+      ->transform(one_of(kOnOff))
+      ->option_text("on|off");
+  app->add_option("--compress", o.compression, "none, quantize (opens nearly everywhere) or meshopt")
+      ->transform(one_of(by_name<exchange::Compression>(exchange::kCompressionNames)))
+      ->option_text("KIND");
+  app->add_option("--lod", o.lod, "Coarser levels of each tree: none, nodes (children NAME_LOD0...) or msft (MSFT_lod)")
+      ->transform(one_of(by_name<exchange::LodFiles>(exchange::kLodFilesNames)))
+      ->option_text("KIND");
+}
+
 void add_size(CLI::App* app, Options& o, const std::string& meaning) {
   app->add_option_function<std::string>(
          "--size",
@@ -154,7 +166,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   make->add_option("--tree", o.tree, "The tree, by its id, that goes into an output NAME.tree.json")
       ->check(whole())
       ->option_text("ID");
-  add_scene(make, o), add_picture(make, o), add_common(make, o);
+  add_scene(make, o), add_gltf(make, o), add_picture(make, o), add_common(make, o);
   make->callback([&] { o.command = Command::make; });
 
   CLI::App* render = app.add_subcommand("render", "Grows the scene of a recipe and draws a picture of it");
@@ -176,6 +188,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App* info = app.add_subcommand("info", "Says what is in a glTF file or a recipe");
   info->add_option("file", o.file, ".glb, .gltf or recipe")->required()->option_text("FILE");
   info->add_flag("--json", o.json, "As JSON");
+  info->add_flag("--check", o.check, "Judges a glTF file: bounds, instances, levels, packed data; exit status 1 if bad");
   info->callback([&] { o.command = Command::info; });
 
   CLI::App* add = app.add_subcommand("import", "Adds ground or trees to a recipe, which is made when missing");

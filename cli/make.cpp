@@ -43,7 +43,12 @@ Result<std::uint64_t> write_model(const Made& made, const path& target) {
   options.version = kVersion;
   options.textures = &cache;
   options.progress = &made.progress;
-  return exchange::write_gltf(made.built.model, target, options);
+  options.instancing = made.options.instancing;
+  options.compression = made.options.compression;
+  options.lod = made.options.lod;
+  auto written = exchange::write_gltf(made.built.model, target, options);
+  if (!written) return written.error();
+  return written->bytes;
 }
 
 Result<std::uint64_t> write_png(const Made& made, const path& target) {

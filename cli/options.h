@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "exchange/gltf_writer.h"
 #include "geometry/season.h"
 #include "geometry/tree_mesh.h"
 #include "scene/grown_scene.h"
@@ -41,6 +42,9 @@ struct Options {
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::optional<std::size_t> max_triangles;
+  bool instancing = false;
+  exchange::Compression compression = exchange::Compression::none;
+  exchange::LodFiles lod = exchange::LodFiles::none;
   std::optional<std::int32_t> tree;  ///< id of the one that a .tree.json gets
 
   // Picture.
@@ -62,6 +66,7 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::filesystem::path report;
   bool quiet = false, json = false;
+  bool check = false;  ///< info: judge the file
 };
 
 /// What parsing led to: options to act on, or an exit status when everything is said (help, version, an error).

@@ -41,11 +41,19 @@ struct Part {
   std::size_t material = 0;
 };
 
+/// The same thing with fewer triangles, for views from farther away.
+struct Level {
+  std::vector<Part> parts;
+  float coverage = 0.0f;  ///< as Node::coverage
+};
+
 struct Node {
   std::string name;
   Vec3 translation{0.0f};
   std::vector<Part> parts;
   Extras extras;
+  float coverage = 0.0f;         ///< least share of a picture's height that its parts are meant for; 0: any
+  std::vector<Level> coarser{};  ///< from fine to coarse; coverage falls from level to level
 };
 
 struct Camera {

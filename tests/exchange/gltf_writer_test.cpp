@@ -315,9 +315,9 @@ TEST(GltfWriter, AFileTooLargeIsRefusedBeforeAnythingIsWritten) {
   const auto whole = write_gltf(sample_model(), folder / "a.glb");
   ASSERT_TRUE(whole);
   GltfOptions options;
-  options.max_glb_bytes = *whole;
+  options.max_glb_bytes = whole->bytes;
   EXPECT_TRUE(write_gltf(sample_model(), folder / "b.glb", options));
-  options.max_glb_bytes = *whole - 1;
+  options.max_glb_bytes = whole->bytes - 1;
   const auto refused = write_gltf(sample_model(), folder / "c.glb", options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::input);
@@ -332,7 +332,7 @@ TEST(GltfWriter, ReturnsTheBytesOfAllFiles) {
   ASSERT_TRUE(bytes);
   std::uint64_t sum = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) sum += entry.file_size();
-  EXPECT_EQ(*bytes, sum);
+  EXPECT_EQ(bytes->bytes, sum);
   EXPECT_EQ(folder.entries(), 5u);  // .gltf, .bin, three images
   EXPECT_EQ(read_back(folder / "two words é.gltf").error, "");
 }
