@@ -141,11 +141,35 @@ std::vector<distribution::Species> planting_species(const scene::Document& docum
   return species;
 }
 
+// Nothing is sown into buildings, nor under meshes.
+distribution::Barriers barriers(const scene::Document& document) {
+  distribution::Barriers out(document.terrain->size_m());
+  for (const scene::Obstacle& o : document.obstacles) {
+    if (o.outline) {
+      out.add(*o.outline);
+      continue;
+    }
+    const TriangleMesh& mesh = *o.mesh;
+    const auto corner = [&](std::size_t i) { return to_plan(mesh.positions[mesh.indices[i]]); };
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      out.add_triangle({corner(i), corner(i + 1), corner(i + 2)});
+  }
+  return out;
+}
+
+// A hero tree acts on what is planted as any tree of its species.
+StandingTree standing(const scene::HeroTree& hero, const Planting& planting) {
+  const auto species = static_cast<std::uint32_t>(hero.species);
+  const std::uint64_t key = distribution::tree_key(hash_text("hero"), static_cast<std::uint64_t>(-hero.id));
+  StandingTree tree = distribution::standing_tree(key, species, planting.species()[species], hero.at, 1.0f);
+  if (hero.skeleton->size() > 0) tree.trunk_radius_m = hero.skeleton->radius[0];
+  return tree;
+}
+
 class Planter {
  public:
-  Planter(const Recipe& recipe, const terrain::Terrain& ground, Planting& planting, std::vector<std::string>& warnings,
-          Progress* progress)
-      : recipe_(recipe), ground_(ground), planting_(planting), warnings_(warnings), progress_(progress) {}
+  Planter(const Recipe& recipe, Planting& planting, std::vector<std::string>& warnings, Progress* progress)
+      : recipe_(recipe), planting_(planting), warnings_(warnings), progress_(progress) {}
 
   Result<void> plant(const PlantingRecipe& block) {
     const std::size_t first = trees.size();
@@ -291,7 +315,7 @@ class Planter {
                             : block.scale;
     const auto refusal = distribution::plant_one(planting_, key, species, block.at, scale);
     // A tree that is set into a building by hand stays, and is warned about when the space is divided.
-    const bool in_building = refusal == distribution::Refusal::excluded && !ground_.excluded(block.at);
+    const bool in_building = refusal == distribution::Refusal::built_over;
     if (in_building)
       planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, scale));
     if (refusal == distribution::Refusal::none || in_building)
@@ -302,7 +326,10 @@ class Planter {
   }
 
   Result<void> plant_inventory(const PlantingRecipe& block) {
-    InventoryOptions options{block.columns, block.south_west, DVec2(recipe_.size_m)};
+    InventoryOptions options;
+    options.columns = block.columns;
+    options.south_west = block.south_west;
+    options.size_m = DVec2(recipe_.size_m);
     auto inventory = read_inventory(block.file, options);
     if (!inventory) return inventory.error();
     const std::string file = block.file.string();
@@ -364,7 +391,6 @@ class Planter {
   }
 
   const Recipe& recipe_;
-  const terrain::Terrain& ground_;  // without the buildings
   Planting& planting_;
   std::vector<std::string>& warnings_;
   Progress* progress_;
@@ -387,13 +413,11 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
   built.seconds["terrain"] = watch.restart();
 
   if (progress) progress->begin("planting", 0);
-  // Nothing is sown into buildings.
-  terrain::Terrain plantable = *document.terrain;
-  for (const scene::Obstacle& o : document.obstacles)
-    if (o.outline) plantable = terrain::exclude(plantable, *o.outline);
-  auto planting = Planting::make(plantable, planting_species(document), recipe.interactions);
+  auto planting =
+      Planting::make(*document.terrain, planting_species(document), recipe.interactions, 0.0f, barriers(document));
   if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
-  Planter planter(recipe, *document.terrain, *planting, built.warnings, progress);
+  for (const scene::HeroTree& hero : document.heroes) planting->add(standing(hero, *planting));
+  Planter planter(recipe, *planting, built.warnings, progress);
   for (const PlantingRecipe& block : recipe.plantings) {
     if (auto done = planter.plant(block); !done) return done.error();
     if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
