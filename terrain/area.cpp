@@ -39,14 +39,14 @@ AreaId AreaLayer::add(const Lattice& lattice, const Area& area) {
 AreaCell AreaLayer::painted(AreaCell cell, AreaId id, std::uint8_t covered, std::uint8_t barred) {
   if (covered == 0) return cell;
   const int top = std::min(cell.cover, barred), under = barred - top;
-  if (cell.top == id) {
+  AreaCell now{id, cell.under, covered};
+  if (cell.top == id)
     // What there was of it stays: a second stroke of the same area widens nothing.
-    cell.cover = static_cast<std::uint8_t>(std::max<int>(top, covered));
-    if (under == 0) cell.under = id;
-    return cell;
-  }
-  const bool top_shows_more = cell.under == id || top >= under;
-  return {id, barred == 0 ? id : (top_shows_more ? cell.top : cell.under), covered};
+    now.cover = static_cast<std::uint8_t>(std::max<int>(top, covered));
+  else if (cell.under == id || top >= under)
+    now.under = cell.top;
+  if (now.cover >= barred) now.under = id;  // nothing shows under it
+  return now;
 }
 
 }  // namespace bosquet::terrain
