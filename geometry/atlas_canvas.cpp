@@ -98,6 +98,46 @@ void AtlasCanvas::needle(Vec2 base, Vec2 tip, float width, const Vec3& colour, f
   }
 }
 
+void AtlasCanvas::ball(Vec2 at, float radius, const Vec3& colour, float squash) {
+  const float reach = radius + pixel();
+  const Window w = window({at - Vec2(reach), at + Vec2(reach)});
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      const Vec2 from = centre(x, y) - at, stretched{from.x, from.y / squash};
+      const float distance = std::sqrt(glm::dot(stretched, stretched));
+      const float cover = clamp01(0.5f + (radius - distance) / pixel());
+      if (cover <= 0.0f) continue;
+      const Vec2 n = stretched / std::max(radius, 0.5f * pixel()) * 0.85f;
+      const float rim = std::min(1.0f, glm::dot(n, n));
+      over(x, y, colour * ((1.0f - 0.30f * rim) * painted_light(-1.1f * n)), cover, 0.9f * n);
+    }
+  }
+}
+
+void AtlasCanvas::petal(Vec2 base, Vec2 tip, float width, const Vec3& colour, const Vec3& at_base) {
+  const Vec2 along = tip - base;
+  const float length2 = std::max(glm::dot(along, along), 1e-12f), length = std::sqrt(length2);
+  const Vec2 across = Vec2(along.y, -along.x) / length;
+  Box2 box;
+  box.add(base), box.add(tip);
+  box.low -= Vec2(0.5f * width + pixel()), box.high += Vec2(0.5f * width + pixel());
+  const Window w = window(box);
+  for (int y = w.y0; y < w.y1; ++y) {
+    for (int x = w.x0; x < w.x1; ++x) {
+      const Vec2 from = centre(x, y) - base;
+      const float t = glm::dot(from, along) / length2, side = glm::dot(from, across);
+      // Broad beyond the middle, notched a little at the end.
+      const float s = clamp01(t),
+                  half = 0.5f * width * std::sqrt(std::max(0.0f, 4.0f * s * (1.0f - s) * (0.55f + 0.45f * s)));
+      const float distance = std::min(half - std::fabs(side), std::min(t, 1.0f - t) * length);
+      const float cover = clamp01(0.5f + distance / pixel());
+      if (cover <= 0.0f) continue;
+      over(x, y, glm::mix(at_base, colour, smooth_step(0.0f, 0.45f, s)) * (0.90f + 0.12f * s), cover,
+           across * (0.8f * side / std::max(width, pixel())));
+    }
+  }
+}
+
 void AtlasCanvas::blade(const LeafBlade& blade, const BladePose& pose) {
   const Vec2 along = pose.direction, across{along.y, -along.x};
   const float half = blade.half_width() * pose.length * pose.narrow, inverse = 1.0f / pose.length;

@@ -41,6 +41,12 @@ class AtlasCanvas {
   /// A needle: a thin leaf-coloured spindle with a lit upper edge.
   void needle(Vec2 base, Vec2 tip, float width, const Vec3& colour, float shade);
 
+  /// A shaded ball, `squash` as high as wide.
+  void ball(Vec2 at, float radius, const Vec3& colour, float squash = 1.0f);
+
+  /// A petal or wing from its base, broadest beyond its middle.
+  void petal(Vec2 base, Vec2 tip, float width, const Vec3& colour, const Vec3& at_base);
+
   void blade(const LeafBlade& blade, const BladePose& pose);
 
   struct Texel {

@@ -8,47 +8,14 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/scalar.h"
-#include "geometry/noise.h"
+#include "geometry/bark_skins.h"
 #include "geometry/texture_colour.h"
 #include "geometry/texture_relief.h"
 
 namespace bosquet::geometry {
 namespace {
 
-// What a point of the bark is: height in cm, linear colour.
-struct BarkPoint {
-  float height;
-  Vec3 colour;
-};
-
-struct Palette {
-  Vec3 top, furrow, mark, patch, lichen;
-};
-
-// Cells per tile for features of this size, at least 2 and even.
-int cells_per_tile(const BarkLook& look, float feature_cm) {
-  const int n = static_cast<int>(100.0f * look.tile_m / feature_cm + 0.5f);
-  return std::max(2, n + n % 2);
-}
-
 float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
-
-// A point's distance to a wrapped stamp, -1/2 .. 1/2 of a tile.
-float wrapped(float d) { return d > 0.5f ? d - 1.0f : d < -0.5f ? d + 1.0f : d; }
-
-// Noises that every form uses.
-struct Grain {
-  TileFractal broad, fine, fibre, warp_u, warp_v;
-
-  Grain(std::uint64_t seed, const BarkLook& look, int octaves)
-      : broad(seed, 1, 3, 3, 4),
-        fine(seed, 2, cells_per_tile(look, 2.0f), cells_per_tile(look, 2.0f), octaves, 0.65f),
-        fibre(seed, 3, cells_per_tile(look, 1.2f), cells_per_tile(look, 6.0f), octaves - 1, 0.6f),
-        warp_u(seed, 4, cells_per_tile(look, 2.2f * look.feature_width_cm),
-               cells_per_tile(look, 0.8f * look.feature_length_cm), 3),
-        warp_v(seed, 5, cells_per_tile(look, 2.0f * look.feature_width_cm),
-               cells_per_tile(look, 0.8f * look.feature_length_cm), 2) {}
-};
 
 // Ridges, between two extremes. Upright: tall jittered cells are the ridges and their borders the furrows; borders that
 // cross the grain are shallow, so that ridges run on and join. Criss-cross: two families of bent ridges that slant to
@@ -237,9 +204,8 @@ class Paper {
     colour *=
         1.0f - 0.42f * (1.0f - smooth_step(0.0f, 0.06f, step)) * smooth_step(0.1f, 0.5f, grain_.broad(u, v) + 0.25f);
     // Stamps that reach this row.
-    const auto& stamps = rows_[static_cast<std::size_t>(std::min(kRows - 1, static_cast<int>(v * kRows)))];
     float lens = 0.0f, rhomb = 0.0f, smudge = 0.0f;
-    for (const Stamp& s : stamps) {
+    for (const Stamp& s : stamps_.at(v)) {
       const float dx = wrapped(u - s.u) / s.half_width, dy = wrapped(v - s.v) / s.half_height;
       const float ax = std::fabs(dx), ay = std::fabs(dy);
       if (s.rhomb) {
@@ -278,51 +244,14 @@ class Paper {
     float u, v, half_width, half_height, strength;
     bool rhomb;
   };
-  static constexpr int kRows = 64;
-
-  // Lists the stamp in every band of rows that it can touch.
-  void add(Stamp s) {
-    const auto into_tile = [](float x) { return x < 0.0f ? x + 1.0f : x >= 1.0f ? x - 1.0f : x; };
-    s.u = into_tile(s.u), s.v = into_tile(s.v);
-    const float reach = 1.7f * s.half_height;
-    const int first = static_cast<int>((s.v - reach + 1.0f) * kRows),
-              last = static_cast<int>((s.v + reach + 1.0f) * kRows);
-    for (int r = first; r <= std::min(last, first + kRows - 1); ++r)
-      rows_[static_cast<std::size_t>(r % kRows)].push_back(s);
-  }
+  void add(const Stamp& s) { stamps_.add(s, 1.7f * s.half_height); }
 
   BarkLook look_;
   Palette palette_;
   Grain grain_;
   TileFractal bands_, sheets_, rough_;
   TileCells cracks_;
-  std::vector<Stamp> rows_[kRows];
-};
-
-// Smooth: a quiet skin with level wrinkles and patches of algae.
-class Smooth {
- public:
-  Smooth(const BarkLook& look, const Palette& palette, std::uint64_t seed)
-      : look_(look),
-        palette_(palette),
-        grain_(seed, look, 5),
-        wrinkles_(seed, 40, 3, cells_per_tile(look, 2.0f), 4, 0.6f) {}
-
-  BarkPoint operator()(float u, float v) const {
-    const float fine = grain_.fine(u, v), broad = grain_.broad(u, v), wrinkle = wrinkles_(u, v);
-    const float line = smooth_step(0.25f, 0.55f, wrinkle);
-    const float tone = 0.98f + 0.14f * broad + 0.10f * fine - 0.14f * line + 0.06f * wrinkle;
-    const Vec3 colour = glm::mix(palette_.top, palette_.furrow, 0.35f * line) * tone;
-    const float growth = look_.lichen * smooth_step(-0.05f, 0.45f, grain_.broad(v, u) + 0.35f * fine);
-    return {look_.furrow_depth_cm * (0.5f - 0.5f * line + 0.2f * fine),
-            glm::mix(colour, palette_.lichen, 0.6f * growth)};
-  }
-
- private:
-  BarkLook look_;
-  Palette palette_;
-  Grain grain_;
-  TileFractal wrinkles_;
+  StampRows<Stamp> stamps_;
 };
 
 template <class Form>
@@ -376,6 +305,10 @@ BarkTextures make_bark(const Look& look, std::uint64_t seed, int size) {
       return paint(Scales(bark, palette, seed), look, palette, size);
     case BarkForm::paper:
       return paint(Paper(bark, palette, seed), look, palette, size);
+    case BarkForm::mosaic:
+      return paint(Mosaic(bark, palette, seed), look, palette, size);
+    case BarkForm::strips:
+      return paint(Strips(bark, palette, seed), look, palette, size);
     case BarkForm::smooth:
       break;
   }

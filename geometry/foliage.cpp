@@ -25,6 +25,21 @@ RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32
   return {in.seed, mix_bits(in.key) + which, Purpose::foliage};
 }
 
+/// r L^2 > 1 - share: r is a hash of the twig's place, L its exposure.
+bool blooms(const FoliageInput& in, const Bloom* bloom, const LeafSite& site) {
+  if (!bloom) return false;
+  constexpr std::uint64_t kBlooming = 990;
+  const float r = static_cast<float>(stream(in, site.internode, site.place).at(kBlooming) >> 40) * 0x1p-24f;
+  const float light = std::clamp(in.skeleton->light[site.internode], 0.0f, 1.0f);
+  return r * light * light > 1.0f - bloom->share;
+}
+
+/// Bunches that hang from their stalks; others stand out from their twig.
+bool hangs(BloomForm form) {
+  return form == BloomForm::catkin || form == BloomForm::balls || form == BloomForm::keys ||
+         form == BloomForm::bracts || form == BloomForm::drupes || form == BloomForm::nuts || form == BloomForm::cones;
+}
+
 /// For each standing internode, whether it is young and thin enough to bear leaves.
 std::vector<std::uint8_t> bearing(const FoliageInput& in) {
   const growth::Skeleton& s = *in.skeleton;
@@ -105,6 +120,9 @@ Vec3 hue_turned(float warm) {
   return warm > 0.0f ? Vec3{1.0f, 1.0f - 0.25f * warm, 1.0f - 0.5f * warm} : Vec3{1.0f + 0.3f * warm, 1.0f, 1.0f};
 }
 
+/// Leaves let light through to those behind them: shade is less deep than on wood.
+float leaf_occlusion(float light) { return 0.3f + 0.7f * occlusion(light); }
+
 /// Writes cards: strips of `columns` quads across, one row.
 class Cards {
  public:
@@ -184,6 +202,7 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
   std::vector<LeafSite> sites;
   if (level == FoliageLevel::leaves && !leafed) return sites;
   const bool single = level == FoliageLevel::leaves;
+  const Bloom* bloom = bloom_of(in.look->leaf, in.season);
   const float fallen = in.season == Season::autumn && !in.look->leaf.evergreen ? look.autumn_fall : 0.0f;
   const float divergence = radians(look.divergence_deg);
   const std::vector<std::uint8_t> bears = bearing(in);
@@ -229,6 +248,12 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
           site.size = twig_size * (1.0f + look.size_variation * of_leaf.uniform(-1.0f, 1.0f));
           if (of_leaf.uniform() >= fallen) sites.push_back(site);
         }
+        site.size = 1.0f;
+        if (blooms(in, bloom, site))
+          for (int bunch = 0; bunch < bloom->bunches; ++bunch) {
+            site.leaf = static_cast<std::int16_t>(LeafSite::kFirstBunch + bunch);
+            sites.push_back(site);
+          }
       }
     }
   }
@@ -278,7 +303,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   // What is left out adds its area to the others.
   double all = 0.0, of_kept = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
-    if (sites[k].leaf == LeafSite::kTwigWood) continue;
+    if (!sites[k].is_leafy()) continue;
     const double area = static_cast<double>(sites[k].size) * static_cast<double>(sites[k].size);
     all += area;
     if (kept(k)) of_kept += area;
@@ -293,7 +318,10 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   constexpr float kFilled = 1.0f - 2.0f * kAtlasMargin;
   const float twig_m = cluster_cell_m(leaf) * (0.5f + 0.5f * season_size) * kFilled;
   const float leaf_m = leaf_cell_m(leaf) * season_size * kFilled;
-  const bool needles = leaf.outline == LeafOutline::needle_spray;
+  const bool needles = is_needle(leaf.outline);
+  const Bloom* bloom = bloom_of(leaf, in.season);
+  const float bunch_m = bloom && single ? bunch_cell_m(*bloom) * kFilled : 0.0f;
+  const bool folded_leaves = bloom && bloom->before_leaves && in.season == Season::spring;
   const float narrow = needles ? 1.0f : std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f);
   const SinCos leaf_droop = sin_cos(radians(leaf.droop_deg)), twig_droop = sin_cos(radians(look.cluster_droop_deg));
   const SinCos insertion = sin_cos(radians(look.insertion_deg));
@@ -317,6 +345,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   std::uint32_t last_internode = 0xffffffff, last_place = 0;
   Vec3 twig_at{0.0f}, out = kUp;
   LeafFrame twig_frame{};
+  bool blooming = false;
   for (std::size_t k = 0; k < n; ++k) {
     if (!kept(k)) continue;
     const LeafSite& site = sites[k];
@@ -328,6 +357,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
     RandomStream of_twig = stream(in, i, site.place);
     if (i != last_internode || site.place != last_place) {
       last_internode = i, last_place = site.place;
+      blooming = blooms(in, bloom, site);
       const Vec3 from = s.proximal(i), to = s.distal[i];
       const Vec3 branch = unit(to - from, kUp), radial = radial_at(branch, site.azimuth);
       twig_at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
@@ -354,7 +384,20 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
     LeafFrame frame = twig_frame;
     Vec3 at = twig_at;
     const bool wood = site.leaf == LeafSite::kTwigWood;
-    if (single && !wood) {
+    const bool bunch = site.is_bunch();
+    if (bunch) {
+      // Spread along the twig, hanging down or standing out.
+      const Vec3 twig = frame.heading;
+      const int number = site.leaf - LeafSite::kFirstBunch;
+      const Vec3 radial = radial_at(twig, radians(look.divergence_deg) * static_cast<float>(number) + site.azimuth);
+      at += (0.25f + 0.7f * (static_cast<float>(number) + random.uniform()) / static_cast<float>(bloom->bunches)) *
+            0.8f * twig_m * twig;
+      frame = stalk(twig, radial, insertion);
+      const Vec3 to = hangs(bloom->form) ? 0.25f * radial - kUp : 0.6f * radial + 0.8f * kUp;
+      frame.heading = unit(to, radial);
+      frame.up = unit(radial - glm::dot(radial, frame.heading) * frame.heading, kUp);
+      frame.left = glm::cross(frame.up, frame.heading);
+    } else if (single && !wood) {
       const Vec3 twig = frame.heading;
       const float azimuth = radians(look.divergence_deg) * static_cast<float>(site.leaf) + site.azimuth;
       at += place_on_twig(leaf, site.leaf, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
@@ -369,11 +412,16 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
     // How it looks.
     const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
     const float warmth = look.vigor_hue * weak * weak + tree_warmth + mottle * random.uniform(-1.0f, 1.0f);
-    const float value = occlusion(light) * tree_value * random.uniform(0.86f, 1.0f);
-    const Vec3 tint = value * (wood ? Vec3(1.0f) : hue_turned(std::clamp(warmth, -1.0f, 1.0f)));
+    const float value = leaf_occlusion(light) * tree_value * random.uniform(0.88f, 1.0f);
+    const Vec3 tint = value * (wood || bunch ? Vec3(1.0f) : hue_turned(std::clamp(warmth, -1.0f, 1.0f)));
     const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
-    const int variant = random.uniform() < 0.5f ? 0 : 1;
-    AtlasCell uv = wood ? wood_cell() : single ? inset(leaf_cell(variant), narrow) : inset(cluster_cell(variant), 1.0f);
+    // In a season with a bloom the atlas' first column shows it, the second is plain.
+    const bool first = random.uniform() < 0.5f;
+    const int variant = bunch ? 0 : bloom ? (blooming && !single ? 0 : 1) : first ? 0 : 1;
+    AtlasCell uv = wood     ? wood_cell()
+                   : bunch  ? inset(leaf_cell(0), 1.0f)
+                   : single ? inset(leaf_cell(variant), narrow)
+                            : inset(cluster_cell(variant), 1.0f);
     if (random.uniform() < 0.5f) std::swap(uv.u0, uv.u1);
 
     if (wood) {
@@ -381,8 +429,13 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       cards.add(at, frame.heading, 0.8f * twig_m, half, frame.left, -frame.left, frame.up, uv, colour, false);
       continue;
     }
+    if (bunch) {
+      cards.add(at, frame.heading, bunch_m, 0.5f * bunch_m, frame.left, -frame.left, frame.up, uv, colour, false);
+      continue;
+    }
     // A card that stands for many grows around its place, not out of the crown.
-    const float length = (single ? leaf_m : twig_m) * site.size * growth;
+    const float length =
+        (single ? leaf_m : twig_m) * site.size * growth * (single && blooming && folded_leaves ? kFoldedLeaf : 1.0f);
     const float half_width = 0.5f * length * (single ? narrow : 1.0f);
     const Vec3 foot = at - 0.5f * crowding * length * frame.heading;
     for (int plane = 0; plane < planes; ++plane) {

@@ -20,6 +20,8 @@
 //           out evenly along the branches, never at random
 // Decision  cards are wound so that their front looks out of the crown, and normals are bent outward likewise:
 //           renderers that turn normals on back faces (glTF, double sided) then shade a crown as a soft volume
+// Bloom     a twig in flower or fruit (bloom.h) shows the atlas' first column: at level clusters and cards the twig with
+//           its bunches, at level leaves its bunches one by one besides the leaves
 // Colour    linear, times the atlas: occlusion by the skeleton's light, a turn toward yellow with low vigor, variation
 //           by tree and by card
 // Units     metres and degrees as named; tree frame
@@ -102,14 +104,18 @@ void describe(Parameters& p, Visitor& visit) { describe_foliage(p, visit); }
 
 /// Where a leafed twig is attached, or which leaf of such a twig.
 struct LeafSite {
-  static constexpr std::int16_t kWholeTwig = -2, kTwigWood = -1;
+  static constexpr std::int16_t kWholeTwig = -2, kTwigWood = -1, kFirstBunch = 1000;
   std::uint32_t internode = 0;
-  std::uint16_t place = 0;         ///< number along its internode, for random numbers
-  std::int16_t leaf = kWholeTwig;  ///< number of a single leaf, from the foot of its twig up
-  float at = 0;                    ///< 0 lower to 1 upper end of the internode
-  float azimuth = 0;               ///< around the branch, radians
-  float size = 1;                  ///< factor, of the twig or leaf
-  bool tip = false;                ///< ends a branch and points where it points
+  std::uint16_t place = 0;  ///< number along its internode, for random numbers
+  std::int16_t leaf =
+      kWholeTwig;     ///< number of a single leaf, from the foot of its twig up, or kFirstBunch + of a bunch
+  float at = 0;       ///< 0 lower to 1 upper end of the internode
+  float azimuth = 0;  ///< around the branch, radians
+  float size = 1;     ///< factor, of the twig or leaf
+  bool tip = false;   ///< ends a branch and points where it points
+
+  bool is_bunch() const { return leaf >= kFirstBunch; }                      ///< of flowers or fruit
+  bool is_leafy() const { return leaf != kTwigWood && leaf < kFirstBunch; }  ///< a leaf or leafed twig: has leaf area
 };
 
 struct FoliageInput {

@@ -74,7 +74,7 @@ std::vector<Placed> place_twigs(int cell, std::uint64_t seed) {
     twig.foot = Vec2(0.5f, 0.55f) + place - 0.45f * twig.size * out;
     const float front = static_cast<float>(k) / static_cast<float>(kTwigs - 1);
     twig.shade = kBackShade + (1.0f - kBackShade) * front;
-    twig.variant = static_cast<int>(random.below(2));
+    twig.variant = cell;  // in a season with a bloom only the first shows it
     twigs.push_back(twig);
   }
   return twigs;

@@ -5,7 +5,10 @@
 //                        growing from the middle of the cell's bottom edge upward and filling the cell
 //             lower row  two variants of a single leaf (or one needle shoot), stalk at the middle of the bottom edge,
 //                        tip up
-// Scale     true: a cluster cell is cluster_cell_m(leaf) metres wide and high, a leaf cell leaf_cell_m(leaf)
+//           in a season with a bloom (bloom.h) the left column shows it: above on the twig, below one bunch, springing
+//           from the middle of the bottom edge
+// Scale     true: a cluster cell is cluster_cell_m(leaf) metres wide and high, a leaf cell leaf_cell_m(leaf),
+//           a bunch bunch_cell_m(bloom)
 // Margin    the outer kAtlasMargin of each cell (share of its side) is transparent; the stalk or twig starts at the
 //           middle of the lower margin line
 // Colour    sRGB albedo with alpha; under transparent pixels the nearest leaf colours go on, so that filtering finds no
@@ -23,11 +26,17 @@ namespace bosquet::geometry {
 
 inline constexpr float kAtlasMargin = 1.0f / 64.0f;
 
+/// Share of a bunch's cell below the bunch, where its stalk is seen.
+inline constexpr float kBunchStem = 0.09f;
+
 /// Side in metres of what an upper cell shows.
 float cluster_cell_m(const LeafLook& leaf);
 
 /// Side in metres of what a lower cell shows.
 float leaf_cell_m(const LeafLook& leaf);
+
+/// Side in metres of what the lower left cell shows where there is a bloom.
+float bunch_cell_m(const Bloom& bloom);
 
 struct AtlasCell {
   float u0, v0, u1, v1;  ///< upper left and lower right corner

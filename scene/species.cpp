@@ -68,9 +68,10 @@ void read_species_tables(TomlTable& table, Species& species) {
   if (auto t = table.table("look")) {
     describe(species.look, *t), geometry::describe_foliage(species.foliage, *t), t->finish();
     const geometry::LeafLook& leaf = species.look.leaf;
-    if ((leaf.outline == geometry::LeafOutline::needle_spray) != (leaf.cluster == geometry::ClusterForm::spray))
+    if (geometry::is_needle(leaf.outline) != geometry::bears_needles(leaf.cluster))
       t->error(t->has("twig_form") ? "twig_form" : "leaf_outline",
-               "leaf_outline = \"needle_spray\" and twig_form = \"spray\" go only together");
+               "leaf_outline = \"needle_spray\" or \"scale_cord\" and twig_form = \"spray\" or \"brush\" go only "
+               "together");
   }
   if (auto t = table.table("allometry")) describe(species.allometry, *t), t->finish();
   if (auto sizes = read_sizes(table.tables("size")); !sizes.empty()) species.sizes = std::move(sizes);

@@ -102,9 +102,12 @@ TEST(Species, NumbersThatDoNotFitTogetherAreToldAtTheTableThatBrokeThem) {
             "4: [growth], order 0: gravimorphism_offset = 0.6 puts the axis outside the bud ellipse, allowed is less "
             "than gravimorphism_vertical = 0.5 either way");
   for (const char* pair : {"leaf_outline = \"needle_spray\"\ntwig_form = \"tuft\"\n",
-                           "leaf_outline = \"palmate\"\ntwig_form = \"spray\"\n"})
+                           "leaf_outline = \"palmate\"\ntwig_form = \"spray\"\n",
+                           "leaf_outline = \"scale_cord\"\ntwig_form = \"opposite\"\n",
+                           "leaf_outline = \"cordate\"\ntwig_form = \"brush\"\n"})
     EXPECT_EQ(refusal(std::string("[look]\n") + pair),
-              "4: leaf_outline = \"needle_spray\" and twig_form = \"spray\" go only together");
+              "4: leaf_outline = \"needle_spray\" or \"scale_cord\" and twig_form = \"spray\" or \"brush\" go only "
+              "together");
   EXPECT_EQ(
       refusal("[growth]\n[[growth.phase]]\nfrom = 0.4\nfrom_order = 1\ngravimorphism_offset = -1\n"),
       "6: [growth], order 1, phase 1: gravimorphism_offset = -1 puts the axis outside the bud ellipse, allowed is "
