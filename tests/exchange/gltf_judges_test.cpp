@@ -65,6 +65,96 @@ TEST_F(Judges, TheValidatorFindsNothingToComplainOf) {
   EXPECT_EQ(said.status, 0) << said.text;
 }
 
+// A model with coarser levels of its trees, as files may be asked to hold.
+scene::Model model_with_levels() {
+  scene::Model model = sample_model();
+  const auto stump = std::make_shared<TriangleMesh>(tube(3, 1, 0.2f, 4.0f, 1.0f));
+  const auto few = std::make_shared<TriangleMesh>(cards(6));
+  for (std::size_t i = 1; i < 4; ++i) {
+    model.nodes[i].coverage = 0.5f;
+    model.nodes[i].coarser = {{{{stump, 0}, {few, 1}}, 0.1f}, {{{few, 1}}, 0.0f}};
+  }
+  return model;
+}
+
+// Every combination of options, by what the file's name says.
+std::vector<std::pair<std::string, GltfOptions>> all_options() {
+  std::vector<std::pair<std::string, GltfOptions>> all;
+  for (bool instancing : {false, true})
+    for (std::size_t c = 0; c < kCompressionNames.size(); ++c)
+      for (std::size_t l = 0; l < kLodFilesNames.size(); ++l)
+        for (const char* ending : {".glb", ".gltf"}) {
+          GltfOptions options;
+          options.instancing = instancing;
+          options.compression = static_cast<Compression>(c);
+          options.lod = static_cast<LodFiles>(l);
+          options.leaf_normal_maps = l == 1;
+          all.emplace_back(std::string(instancing ? "instanced-" : "baked-") + std::string(kCompressionNames[c]) + "-" +
+                               std::string(kLodFilesNames[l]) + ending,
+                           options);
+        }
+  return all;
+}
+
+TEST_F(Judges, EveryCombinationOfOptionsIsValidAndDecodesToThePlainTriangles) {
+  const scene::Model model = model_with_levels();
+  ASSERT_TRUE(write_gltf(model, folder_ / "plain.glb"));
+  std::string files;
+  for (const auto& [name, options] : all_options()) {
+    const auto written = write_gltf(model, folder_ / name, options);
+    ASSERT_TRUE(written) << name << ": " << written.error().message;
+    files += " " + quoted(folder_ / name);
+  }
+  const Said valid = ask("validate.mjs", files);
+  EXPECT_EQ(valid.status, 0) << valid.text;
+  const Said same = ask("compare.mjs", quoted(folder_ / "plain.glb") + files);
+  EXPECT_EQ(same.status, 0) << same.text;
+}
+
+TEST_F(Judges, TheComparisonIsAwake) {
+  scene::Model model = sample_model();
+  ASSERT_TRUE(write_gltf(model, folder_ / "plain.glb"));
+  GltfOptions options;
+  options.instancing = true, options.compression = Compression::meshopt;
+  const auto complaint = [&] {
+    EXPECT_TRUE(write_gltf(model, folder_ / "other.glb", options));
+    const Said said = ask("compare.mjs", quoted(folder_ / "plain.glb") + " " + quoted(folder_ / "other.glb"));
+    EXPECT_EQ(said.status, 1) << said.text;
+    return said.text;
+  };
+  // One corner of one leaf of one tree 3 mm aside; then a triangle less.
+  TriangleMesh crown = *model.nodes[2].parts[1].mesh;
+  crown.positions[40].x += 0.003f;
+  model.nodes[2].parts[1].mesh = std::make_shared<TriangleMesh>(crown);
+  EXPECT_NE(complaint().find("english_oak-2: no counterpart"), std::string::npos);
+  crown.positions[40].x -= 0.003f;
+  crown.indices.resize(crown.indices.size() - 3);
+  model.nodes[2].parts[1].mesh = std::make_shared<TriangleMesh>(crown);
+  EXPECT_NE(complaint().find("english_oak-2: 215 triangles"), std::string::npos);
+}
+
+TEST_F(Judges, ThreeJsShowsInstancedAndPackedLeavesWhereTheBakedOnesAre) {
+  const scene::Model model = sample_model();
+  const auto box = [&](const GltfOptions& options, double& triangles) {
+    EXPECT_TRUE(write_gltf(model, folder_ / "a.glb", options));
+    const Said said = ask("view.mjs", quoted(folder_ / "a.glb") + " " + quoted(folder_ / "a.png") + " --size 64x64");
+    EXPECT_EQ(said.status, 0) << said.text;
+    const auto report = nlohmann::json::parse(said.text, nullptr, false);
+    triangles = report["triangles"];
+    return std::pair{report["box"]["min"].get<std::array<double, 3>>(),
+                     report["box"]["max"].get<std::array<double, 3>>()};
+  };
+  GltfOptions small;
+  small.instancing = true, small.compression = Compression::meshopt;
+  double plain_triangles = 0, triangles = 1;
+  const auto plain = box({}, plain_triangles), packed = box(small, triangles);
+  EXPECT_EQ(triangles, plain_triangles);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(packed.first[c], plain.first[c], 1e-3);
+    EXPECT_NEAR(packed.second[c], plain.second[c], 1e-3);
+  }
+}
+
 TEST_F(Judges, TheValidatorIsAwake) {
   ASSERT_TRUE(write_gltf(sample_model(), folder_ / "a.glb"));
   std::string bytes = slurp(folder_ / "a.glb");
