@@ -183,7 +183,7 @@ std::vector<std::pair<std::string, std::string>> columns() {
   return found.all;
 }
 
-void add_word(std::string& list, const char* word) {
+void add_word(std::string& list, std::string_view word) {
   if (!list.empty()) list += ", ";
   list += word;
 }
@@ -293,7 +293,7 @@ class TreeReader {
     for (const auto& [name, type] : columns()) {
       const bool has = std::find(there.begin(), there.end(), name) != there.end();
       place_.push_back(has ? static_cast<int>(columns_++) : -1);
-      if (has) select_ += (select_.empty() ? "" : ", ") + name;
+      if (has) add_word(select_, name);
     }
   }
 
@@ -379,7 +379,7 @@ void put_in_order(ReadTrees& read) {
 
 std::string tree_table() {
   std::string sql;
-  for (const auto& [name, type] : columns()) sql += (sql.empty() ? "" : ", ") + name + " " + type;
+  for (const auto& [name, type] : columns()) add_word(sql, fmt::format("{} {}", name, type));
   return "CREATE TABLE trees (" + sql + ")";
 }
 
@@ -397,8 +397,8 @@ std::vector<std::string> species_labels(const Document& document) {
 Result<TreeRows> TreeRows::writer(Database& database, const Document& document, std::int32_t srs) {
   std::string names, places;
   for (const auto& [name, type] : columns()) {
-    names += (names.empty() ? "" : ", ") + name;
-    places += places.empty() ? "?" : ", ?";
+    add_word(names, name);
+    add_word(places, "?");
   }
   auto put = database.prepare(fmt::format("INSERT OR REPLACE INTO trees ({}) VALUES ({})", names, places));
   if (!put) return put.error();
