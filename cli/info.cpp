@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "exchange/file_output.h"
+#include "exchange/gltf_check.h"
 #include "exchange/gltf_info.h"
 #include "exchange/recipe.h"
 
@@ -75,6 +77,14 @@ void print_gltf(const exchange::GltfInfo& info, const std::string& file) {
   }
 }
 
+std::string faults_text(const exchange::GltfCheck& check, const std::string& file) {
+  const std::size_t n = check.faults.size() + check.more_faults;
+  std::string text = fmt::format("{}: {} fault{}", file, n, n == 1 ? "" : "s");
+  for (const std::string& fault : check.faults) text += "\n  " + fault;
+  if (check.more_faults > 0) text += fmt::format("\n  and {} more", check.more_faults);
+  return text;
+}
+
 Result<void> recipe_info(const Options& options) {
   auto recipe = exchange::read_recipe(options.file, options.seed);
   if (!recipe) return recipe.error();
@@ -103,16 +113,33 @@ Result<void> recipe_info(const Options& options) {
 }  // namespace
 
 Result<void> run_info(const Options& options) {
-  const std::string ending = options.file.extension().string();
-  if (ending == ".toml") return recipe_info(options);
+  const std::string ending = exchange::lower_ending(options.file);
+  if (ending == ".toml") {
+    if (options.check) return Error{fmt::format("{}: --check judges .glb and .gltf", options.file.string())};
+    return recipe_info(options);
+  }
   if (ending != ".glb" && ending != ".gltf")
     return Error{fmt::format("{}: info reads .glb, .gltf and recipes (.toml)", options.file.string())};
   auto info = exchange::read_gltf_info(options.file);
   if (!info) return info.error();
-  if (options.json)
-    fmt::print("{}\n", gltf_json(*info).dump(2, ' ', false, Json::error_handler_t::replace));
-  else
+  exchange::GltfCheck check;
+  if (options.check) {
+    auto checked = exchange::check_gltf(options.file);
+    if (!checked) return checked.error();
+    check = *std::move(checked);
+  }
+  if (options.json) {
+    Json json = gltf_json(*info);
+    if (options.check) json["faults"] = check.faults;
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
     print_gltf(*info, options.file.string());
+  }
+  if (!options.check) return {};
+  if (!check.good()) return Error{faults_text(check, options.file.string())};
+  if (!options.json)
+    fmt::print("\nchecked: {} accessors, {} packed views, {} instances, {} nodes with levels; no faults\n",
+               check.accessors, check.packed_views, check.instances, check.nodes_with_levels);
   return {};
 }
 

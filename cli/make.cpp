@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "crowns/vdb.h"
+#include "exchange/file_output.h"
 #include "exchange/gltf_writer.h"
 #include "exchange/schedule.h"
 #include "exchange/tree_file.h"
@@ -106,7 +107,7 @@ constexpr Format kFormats[] = {{".glb", write_model, true},   {".gltf", write_mo
                                {".vdb", write_voxels, false}, {".json", write_one_tree, false}};
 
 const Format* format_of(const path& target) {
-  const std::string ending = target.extension().string();
+  const std::string ending = exchange::lower_ending(target);
   const auto found =
       std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.ending == ending; });
   return found == std::end(kFormats) ? nullptr : found;

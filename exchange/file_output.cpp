@@ -172,6 +172,13 @@ Result<std::uint64_t> write_file(const std::filesystem::path& target, std::strin
   return write_file(target, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+std::string lower_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t limit) {
   const std::string name = path.string();
   struct Closer {

@@ -62,6 +62,9 @@ class FileOutput {
 Result<std::uint64_t> write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
 Result<std::uint64_t> write_file(const std::filesystem::path& target, std::string_view text);
 
+/// The path's ending in lower case, with its dot: what kind of file is meant.
+std::string lower_ending(const std::filesystem::path& path);
+
 /// All bytes of a regular file of at most `limit` bytes; the message names path, size and limit.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t limit);
 

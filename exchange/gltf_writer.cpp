@@ -155,12 +155,6 @@ Result<std::uint64_t> write_separate(const std::filesystem::path& path, const Gl
   return total;
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 }  // namespace
 
 ModelCount count(const scene::Model& model) {
@@ -177,7 +171,7 @@ ModelCount count(const scene::Model& model) {
 
 Result<WrittenGltf> write_gltf(const scene::Model& model, const std::filesystem::path& path,
                                const GltfOptions& options) {
-  const std::string ending = lower_case(path.extension().string());
+  const std::string ending = lower_ending(path);
   if (ending != ".glb" && ending != ".gltf")
     return Error{fmt::format("{}: a glTF file ends in .glb or .gltf", path.string())};
   if (auto checked = check_numbers(model); !checked) return checked.error();
