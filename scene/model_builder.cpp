@@ -9,26 +9,16 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "geometry/bark_texture.h"
-#include "geometry/foliage_mass.h"
 #include "geometry/ground_mesh.h"
-#include "geometry/ground_texture.h"
-#include "geometry/leaf_atlas.h"
 #include "growth/radii.h"
+#include "scene/materials.h"
 
 namespace bosquet::scene {
 namespace {
 
-// Below one half, since most viewers let the alpha of distant leaves fade in their mipmaps.
-constexpr float kLeafCutoff = 0.35f;
-constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
 // Grass thins out under a crown, but a single tree does not bare the ground; where crowns overlap their shade adds up.
 constexpr float kMostShade = 0.5f;
 constexpr std::size_t kMostGroundTriangles = 200'000;
-// Obstacles are volumes in a plain light render.
-constexpr Vec3 kObstacleGrey{0.40f, 0.385f, 0.36f};
-// Seed of the textures: a species looks the same in every document.
-constexpr std::uint64_t kTextureSeed = 1;
 // The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.
 constexpr float kNearest_m = 8.0f;
 // Half diagonal over half height of a 16:9 picture.
@@ -37,76 +27,6 @@ constexpr float kPictureDiagonal = 2.04f;
 constexpr double kEvenShare = 0.35;
 // A tree behind the camera still throws shadows and is seen when the viewer turns.
 constexpr float kOutOfPicture = 0.35f;
-
-std::shared_ptr<const Image> shared(Image image) { return std::make_shared<const Image>(std::move(image)); }
-
-// Materials of the model, in this order: of each species in turn, then of the site.
-enum : std::size_t { kBark, kLeaf, kMass, kOfSpecies };
-std::size_t material_of(std::size_t species, std::size_t part) { return kOfSpecies * species + part; }
-std::size_t ground_material(const Document& document) { return kOfSpecies * document.species.size(); }
-std::size_t water_material(const Document& document) { return ground_material(document) + 1; }
-std::size_t obstacle_material(const Document& document) { return ground_material(document) + 2; }
-
-Material leaf_material(std::string name, const Species& species, geometry::LeafAtlas atlas) {
-  Material material;
-  material.name = std::move(name);
-  material.surface = Surface::leaf;
-  material.base_colour = shared(std::move(atlas.base_colour));
-  if (!atlas.normal.empty()) material.normal = shared(std::move(atlas.normal));
-  material.roughness = 0.7f;
-  material.translucency = species.look.leaf.translucency;
-  material.alpha_cutoff = kLeafCutoff;
-  material.mask = material.double_sided = true;
-  return material;
-}
-
-std::vector<Material> make_materials(const Document& document, geometry::Season season) {
-  const std::size_t n = document.species.size();
-  std::vector<Material> materials(kOfSpecies * n + 3);
-  std::vector<bool> used(n, false);
-  for (const Tree& tree : *document.trees) used[tree.species] = true;
-  for (const HeroTree& hero : document.heroes) used[hero.species] = true;
-  parallel_for(2 * n + 1, [&](std::size_t job) {
-    const std::size_t s = job / 2;
-    if (s == n) {
-      auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
-      Material& ground = materials[ground_material(document)];
-      ground.name = "ground";
-      ground.surface = Surface::ground;
-      ground.base_colour = shared(std::move(textures.base_colour));
-      ground.normal = shared(std::move(textures.normal));
-      return;
-    }
-    if (!used[s]) return;
-    const Species& species = *document.species[s];
-    const std::uint64_t seed = kTextureSeed + hash_text(species.name);
-    if (job % 2 == 0) {
-      auto textures = geometry::make_bark(species.look, seed, kBarkPixels);
-      Material& bark = materials[material_of(s, kBark)];
-      bark.name = species.name + "-bark";
-      bark.surface = Surface::bark;
-      bark.base_colour = shared(std::move(textures.base_colour));
-      bark.normal = shared(std::move(textures.normal));
-      bark.roughness = 0.9f;
-    } else {
-      geometry::LeafAtlas atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
-      materials[material_of(s, kMass)] =
-          leaf_material(species.name + "-foliage", species, geometry::make_foliage_mass(atlas, seed));
-      materials[material_of(s, kLeaf)] = leaf_material(species.name + "-leaf", species, std::move(atlas));
-    }
-  });
-  Material& water = materials[water_material(document)];
-  water.name = "water";
-  water.surface = Surface::water;
-  water.base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
-  water.roughness = 0.08f;
-  Material& obstacle = materials[obstacle_material(document)];
-  obstacle.name = "obstacle";
-  obstacle.surface = Surface::obstacle;
-  obstacle.base_factor = Vec4(kObstacleGrey, 1.0f);
-  obstacle.double_sided = true;  // meshes of others face any way
-  return materials;
-}
 
 // How much of each square metre lies under crowns, for the colour of the ground.
 std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
@@ -332,9 +252,9 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     node.extras = std::move(trees[i].extras);
     if (!mesh.branches.empty())
       node.parts.push_back(
-          {std::make_shared<const TriangleMesh>(std::move(mesh.branches)), material_of(trees[i].species, kBark)});
+          {std::make_shared<const TriangleMesh>(std::move(mesh.branches)), material_of(trees[i].species, kBarkPart)});
     if (!mesh.leaves.empty()) {
-      const std::size_t part = mesh.foliage == geometry::FoliageLevel::cards ? kMass : kLeaf;
+      const SpeciesPart part = mesh.foliage == geometry::FoliageLevel::cards ? kMassPart : kLeafPart;
       node.parts.push_back(
           {std::make_shared<const TriangleMesh>(std::move(mesh.leaves)), material_of(trees[i].species, part)});
     }

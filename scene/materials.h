@@ -1,0 +1,33 @@
+// Materials: how wood and leaves of the species, ground, water and obstacles look, as textures made by the program.
+//
+// Model     kOfSpecies materials for each species in the document's order, then those of the site
+// Holds     a species looks the same in every document
+// Cost      some tenths of a second a species, in parallel; species without trees are left empty
+#pragma once
+
+#include <vector>
+
+#include "geometry/season.h"
+#include "scene/document.h"
+#include "scene/model.h"
+
+namespace bosquet::scene {
+
+/// Parts of a species' trees: bark, single leaves and twigs, masses of foliage on cards.
+enum SpeciesPart : std::size_t { kBarkPart, kLeafPart, kMassPart, kOfSpecies };
+
+inline std::size_t material_of(std::size_t species, SpeciesPart part) { return kOfSpecies * species + part; }
+inline std::size_t ground_material(const Document& document) { return kOfSpecies * document.species.size(); }
+inline std::size_t water_material(const Document& document) { return ground_material(document) + 1; }
+inline std::size_t obstacle_material(const Document& document) { return ground_material(document) + 2; }
+
+/// All of them for a document.
+std::vector<Material> make_materials(const Document& document, geometry::Season season);
+
+/// Those of one species, in the order of SpeciesPart.
+std::vector<Material> species_materials(const Species& species, geometry::Season season);
+
+/// Ground, water, obstacles.
+std::vector<Material> site_materials();
+
+}  // namespace bosquet::scene
