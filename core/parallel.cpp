@@ -1,16 +1,22 @@
 #include "core/parallel.h"
 
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <numeric>
+
+#include "core/background.h"
 
 namespace bosquet {
 namespace {
@@ -27,7 +33,32 @@ void note_worker() {
   workers.fetch_add(1, std::memory_order_relaxed);
 }
 
+// On Linux a nice value belongs to a thread.
+id_t this_thread() { return static_cast<id_t>(syscall(SYS_gettid)); }
+
+// Makes the threads nice that come into an arena, and tries to take it back when they leave.
+class NiceThreads : public tbb::task_scheduler_observer {
+ public:
+  explicit NiceThreads(tbb::task_arena& arena) : task_scheduler_observer(arena) { observe(true); }
+  ~NiceThreads() override { observe(false); }
+  void on_scheduler_entry(bool is_worker) override {
+    if (is_worker) setpriority(PRIO_PROCESS, this_thread(), kBackgroundNice);
+  }
+  void on_scheduler_exit(bool is_worker) override {
+    if (is_worker) setpriority(PRIO_PROCESS, this_thread(), 0);
+  }
+};
+
 }  // namespace
+
+int thread_nice() { return getpriority(PRIO_PROCESS, this_thread()); }
+
+void run_in_background(int threads, const std::function<void()>& work) {
+  setpriority(PRIO_PROCESS, this_thread(), kBackgroundNice);
+  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  NiceThreads nice(arena);
+  arena.execute(work);
+}
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   const int n = threads > 0 ? threads : tbb::info::default_concurrency();

@@ -23,7 +23,7 @@ struct Digest128 {
   bool operator==(const Digest128&) const = default;
 };
 
-/// 32 lower-case hex digits, and back (zero digest for anything else).
+/// 32 lower-case hex digits.
 std::string hex_digits(const Digest128& digest);
 
 enum class Section { site, ground, species, planting, trees, obstacles, heroes, settings };

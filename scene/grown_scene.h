@@ -2,7 +2,6 @@
 //
 // Model     divide_space, asymmetry, canopy light, then every tree grown alone and in parallel (Longay 2014, 6.1); the
 //           stages of the source's comparisons can be switched off one by one
-// Decision  a clipped tree grows only inside its form, all its buds breaking, until the form is full
 // Holds     the same document and options give the same skeletons for any number of threads
 // Errors    a crown space too large for memory; cancelled work (kind cannot_finish)
 #pragma once
@@ -20,6 +19,8 @@
 #include "growth/skeleton.h"
 #include "scene/document.h"
 #include "scene/skeleton_cache.h"
+#include "scene/surroundings.h"
+#include "scene/tree_growth.h"
 
 namespace bosquet::scene {
 
@@ -31,18 +32,6 @@ struct GrowOptions {
   std::optional<float> year;           ///< show every tree at this age; missing: at its final height
   SkeletonCache* skeletons = nullptr;  ///< trees grown before; null: every tree is grown
 };
-
-struct GrownTree {
-  std::shared_ptr<const growth::Skeleton> skeleton;
-  int season = -1;            ///< the last season shown; -1 all of them
-  growth::Measures measures;  ///< at that season
-  float age_years = 0;        ///< by the species' height curve
-  bool from_cache = false;    ///< it was not grown now
-  Vec3 asymmetry{0.0f};
-};
-
-/// Seconds spent in each stage, by name.
-using Seconds = std::map<std::string, double>;
 
 struct GrownScene {
   Document given;     ///< as it came
@@ -59,9 +48,6 @@ struct GrownScene {
 
 /// The document without its trees to be removed.
 Document without_removed(const Document& document);
-
-/// The trees as crowns/ sees them, in the document's order.
-std::vector<crowns::Claimant> claimants(const Document& document);
 
 Result<GrownScene> grow_scene(const Document& document, const GrowOptions& options, Progress* progress);
 

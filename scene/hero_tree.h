@@ -20,6 +20,8 @@ struct HeroTree {
   std::uint64_t key = 0;    ///< of its leaves' random streams
   Vec2 at{0.0f};            ///< plan
   std::shared_ptr<const growth::Skeleton> skeleton;
+
+  bool operator==(const HeroTree&) const = default;  ///< with the very same skeleton
 };
 
 /// The skeleton enlarged and turned about its foot, counter-clockwise seen from above.

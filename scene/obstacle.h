@@ -20,6 +20,8 @@ struct Obstacle {
   std::shared_ptr<const TriangleMesh> mesh;
   std::shared_ptr<const Polygon> outline;  ///< null for a mesh from a file
   float low_y = 0, high_y = 0;             ///< of the prism
+
+  bool operator==(const Obstacle&) const = default;  ///< with the very same mesh and outline
 };
 
 }  // namespace bosquet::scene

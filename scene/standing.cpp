@@ -23,29 +23,54 @@ std::string name_of(const Document& document, std::int32_t id) {
 }  // namespace
 
 Result<crowns::Standing> standing(const Document& document, std::vector<std::string>& warnings) {
+  return StandingKeeper().of(document, warnings);
+}
+
+Result<crowns::Standing> StandingKeeper::of(const Document& document, std::vector<std::string>& warnings) {
   crowns::Standing out;
   const crowns::VoxelSize size = document.space.voxel();
-  const Box2 near{Vec2(-kMargin_m), document.terrain->size_m() + kMargin_m};
+  const Vec2 site = document.terrain->size_m();
+  const Box2 near{Vec2(-kMargin_m), site + kMargin_m};
+  decltype(obstacles_) obstacles;
   for (const Obstacle& o : document.obstacles) {
-    crowns::ObstacleVolume volume;
-    if (o.outline) {
-      volume = crowns::extrude(*o.outline, o.low_y, o.high_y, size, near);
-    } else {
-      auto voxels = crowns::voxelise(*o.mesh, size, near);
-      if (!voxels) return Error{fmt::format("obstacle '{}': {}", o.name, voxels.error().message), voxels.error().kind};
-      volume = std::move(*voxels);
+    const ObstacleKey key{o.mesh.get(), o.outline.get(), o.low_y, o.high_y, size.voxel_m, size.layer_m, site.x, site.y};
+    std::shared_ptr<const crowns::ObstacleVolume> volume;
+    if (const auto kept = obstacles_.find(key); kept != obstacles_.end()) volume = kept->second.volume;
+    if (!volume) {
+      crowns::ObstacleVolume made;
+      if (o.outline) {
+        made = crowns::extrude(*o.outline, o.low_y, o.high_y, size, near);
+      } else {
+        auto voxels = crowns::voxelise(*o.mesh, size, near);
+        if (!voxels)
+          return Error{fmt::format("obstacle '{}': {}", o.name, voxels.error().message), voxels.error().kind};
+        made = std::move(*voxels);
+      }
+      volume = std::make_shared<const crowns::ObstacleVolume>(std::move(made));
     }
-    if (!volume.warning.empty()) warnings.push_back(fmt::format("obstacle '{}': {}", o.name, volume.warning));
-    out.obstacles.push_back({o.id, o.name, std::make_shared<const crowns::ObstacleVolume>(std::move(volume))});
+    if (!volume->warning.empty()) warnings.push_back(fmt::format("obstacle '{}': {}", o.name, volume->warning));
+    obstacles[key] = {o, volume};
+    out.obstacles.push_back({o.id, o.name, std::move(volume)});
   }
+  obstacles_ = std::move(obstacles);
+
+  decltype(heroes_) heroes;
   for (const HeroTree& h : document.heroes) {
     const Vec3 foot = to_world(h.at, document.terrain->ground(h.at));
-    std::vector<Segment> wood;
-    for (std::size_t i = 0; i < h.skeleton->size(); ++i)
-      if (h.skeleton->alive(i))
-        wood.push_back({foot + h.skeleton->proximal(i), foot + h.skeleton->distal[i], h.skeleton->radius[i]});
-    out.heroes.push_back({h.id, h.name, std::make_shared<const std::vector<Segment>>(std::move(wood))});
+    const HeroKey key{h.skeleton.get(), foot.x, foot.y, foot.z};
+    std::shared_ptr<const std::vector<Segment>> wood;
+    if (const auto kept = heroes_.find(key); kept != heroes_.end()) wood = kept->second.wood;
+    if (!wood) {
+      auto made = std::make_shared<std::vector<Segment>>();
+      for (std::size_t i = 0; i < h.skeleton->size(); ++i)
+        if (h.skeleton->alive(i))
+          made->push_back({foot + h.skeleton->proximal(i), foot + h.skeleton->distal[i], h.skeleton->radius[i]});
+      wood = std::move(made);
+    }
+    heroes[key] = {h.skeleton, wood};
+    out.heroes.push_back({h.id, h.name, std::move(wood)});
   }
+  heroes_ = std::move(heroes);
   return out;
 }
 

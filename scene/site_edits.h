@@ -1,0 +1,53 @@
+// Site edits: ground, water, areas without trees, buildings and hero trees.
+//
+// Model     trees keep their plan positions: they rise and sink with the ground
+// Decision  trees that come to stand on an exclusion, in water or inside a building stay where they are and are listed in
+//           `displaced`; with Displaced::remove those of them that are not locked are taken away in the same step
+// Decision  obstacles and hero trees stand at the height they were set at; hero trees follow the ground
+// Frame     plan (east, north) metres; levels in metres, up
+// Errors    what cannot be, by name
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "scene/edits.h"
+#include "terrain/area.h"
+#include "terrain/brush.h"
+#include "terrain/pond.h"
+
+namespace bosquet::scene {
+
+enum class Displaced { stay, remove };
+
+/// One stroke of a brush; its name says what it does.
+Edited shape_ground(const Document& document, const terrain::Stroke& stroke, Displaced displaced = Displaced::stay);
+
+/// A terrain made by other means, such as terrain::LiveStroke, in place of the document's; of equal size.
+Edited set_ground(const Document& document, terrain::Terrain terrain, std::string name,
+                  Displaced displaced = Displaced::stay);
+
+Edited set_water_level(const Document& document, std::optional<float> level_m, Displaced displaced = Displaced::stay);
+
+Edited exclude_area(const Document& document, const Polygon& polygon, const terrain::Area& area = {},
+                    Displaced displaced = Displaced::stay);
+Edited exclude_path(const Document& document, std::span<const Vec2> path, float width_m, const terrain::Area& area = {},
+                    Displaced displaced = Displaced::stay);
+Edited dig_pond(const Document& document, const std::string& name, const Polygon& outline, std::optional<float> level_m,
+                const terrain::PondRules& rules = {}, Displaced displaced = Displaced::stay);
+
+/// A building over an outline, `height_m` above the ground at it.
+Result<Edited> add_building(const Document& document, std::string name, Polygon outline, float height_m,
+                            Displaced displaced = Displaced::stay);
+/// Any obstacle; its id is given here.
+Result<Edited> add_obstacle(const Document& document, Obstacle obstacle, Displaced displaced = Displaced::stay);
+Result<Edited> remove_obstacle(const Document& document, std::int32_t id);
+
+Result<Edited> move_hero(const Document& document, std::int32_t id, Vec2 to);
+Result<Edited> remove_hero(const Document& document, std::int32_t id);
+
+/// An extruded outline from a little below the lowest ground at it up to `height_m` above the mean of the ground there.
+Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground);
+
+}  // namespace bosquet::scene
