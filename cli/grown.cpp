@@ -7,6 +7,7 @@
 
 #include "cli/picture.h"
 #include "exchange/recipe.h"
+#include "scene/clearance.h"
 
 namespace bosquet::cli {
 namespace {
@@ -44,6 +45,8 @@ Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Pr
   report.seed = built->document.seed;
   report.seconds = built->seconds;
   report.warnings = built->warnings;
+  for (const auto& breach : scene::clearance_breaches(built->document, built->document.clearance))
+    report.warnings.push_back(scene::words(breach, built->document));
 
   auto grown = scene::grow_scene(built->document, options.grow, &progress);
   if (!grown) return grown.error();

@@ -37,6 +37,9 @@ class Reader {
       if (auto read = read_hero(table); !read) return read;
     for (TomlTable& table : root.tables("camera")) read_camera(table);
     if (auto table = root.table("sun")) read_sun(*table);
+    if (auto table = root.table("clearance")) describe(recipe_.document.clearance, *table), table->finish();
+    if (auto table = root.table("plan")) describe(recipe_.document.plan, *table), table->finish();
+    if (auto table = root.table("underlay")) read_underlay(*table);
     if (auto table = root.table("export")) {
       if (auto n = table->integer("max_triangles", 0, 1'000'000'000))
         recipe_.document.max_triangles = static_cast<std::size_t>(*n);
@@ -394,6 +397,18 @@ class Reader {
     scene::Sun& sun = recipe_.document.sun;
     sun.azimuth_deg = static_cast<float>(table.number("azimuth_deg", -360, 360).value_or(sun.azimuth_deg));
     sun.elevation_deg = static_cast<float>(table.number("elevation_deg", 0.5, 90).value_or(sun.elevation_deg));
+    table.finish();
+  }
+
+  void read_underlay(TomlTable& table) {
+    scene::Underlay& underlay = recipe_.document.underlay;
+    if (auto file = table.text("file"); file && !file->empty())
+      underlay.file = (folder_ / *file).string();
+    else
+      table.error(table.has("file") ? "file" : "", "[underlay] needs file = \"plan.png\", a .png or .jpg");
+    if (auto corner = table.numbers("south_west", 2)) underlay.south_west = {(*corner)[0], (*corner)[1]};
+    describe(underlay, table);
+    if (!table.has("width_m")) table.error("", "[underlay] needs width_m, the picture's width on the ground");
     table.finish();
   }
 

@@ -19,9 +19,11 @@
 #include "crowns/crown_space.h"
 #include "distribution/kernels.h"
 #include "distribution/sowing.h"
+#include "scene/clearance.h"
 #include "scene/hero_tree.h"
 #include "scene/model.h"
 #include "scene/obstacle.h"
+#include "scene/plan_settings.h"
 #include "scene/shared_list.h"
 #include "scene/species.h"
 #include "scene/trees.h"
@@ -53,6 +55,9 @@ struct Document {
   crowns::LightOptions light;
   SharedList<Camera> cameras;
   Sun sun;
+  ClearanceRules clearance;
+  PlanSettings plan;
+  Underlay underlay;
   std::size_t max_triangles = 3'000'000;  ///< of an export; 0 is no limit
   std::int32_t next_tree_id = 1;
   std::int32_t next_standing_id = -1;  ///< of obstacles and hero trees, downward

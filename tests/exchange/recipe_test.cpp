@@ -150,6 +150,47 @@ TEST(Recipe, MistakesAreToldBeforeAnyWork) {
   EXPECT_NE(mistake_in("[[camera]]\neye = [1, 2]\n").find("eye must be a list of 3 numbers"), std::string::npos);
 }
 
+TEST(Recipe, AClippedHedgeIsOneBodyAboutItsLine) {
+  const BuiltRecipe hedge = build(
+      "[[planting]]\nkind = 'hedge'\nspecies = { european_beech = 1 }\npoints = [[10, 10], [20, 20]]\nform = 'box'\n"
+      "form_height_m = 1.8\nclear_stem_m = 0.1\nstatus = 'existing'\n");
+  ASSERT_GT(hedge.document.trees->size(), 40u);
+  for (const scene::Tree& tree : *hedge.document.trees) {
+    const Vec2 middle = tree.at + tree.form.centre;
+    EXPECT_NEAR(middle.x, middle.y, 1e-3f) << "the body stands on the line";
+    EXPECT_NEAR(tree.form.rotation_deg, 45.0f, 1e-3f);
+    EXPECT_FLOAT_EQ(tree.form.depth_m, 0.9f);  // two rows 0.4 m apart and half a metre
+    EXPECT_FLOAT_EQ(tree.clear_stem_m, 0.1f);
+    EXPECT_EQ(tree.status, scene::TreeStatus::existing);
+    EXPECT_FLOAT_EQ(hedge.document.mature_height_m(tree), 1.8f);
+  }
+}
+
+TEST(Recipe, WhereATreeIsRemovedAnotherMayBePlanted) {
+  const std::string old = "[[planting]]\nname = 'old'\nkind = 'single'\nspecies = { english_oak = 1 }\nat = [20, 20]\n";
+  const std::string next = "[[planting]]\nname = 'new'\nkind = 'single'\nspecies = { silver_birch = 1 }\nat = [20, 20]\n";
+  EXPECT_EQ(build(old + next).document.trees->size(), 1u);
+  const BuiltRecipe cleared = build(old + "status = 'to_remove'\n" + next);
+  ASSERT_EQ(cleared.document.trees->size(), 2u);
+  EXPECT_EQ(cleared.document.trees->front().status, scene::TreeStatus::to_remove);
+}
+
+TEST(Recipe, MistakesInClippedFormsAreNamed) {
+  const std::string single = "[[planting]]\nkind = 'single'\nspecies = { english_oak = 1 }\nat = [20, 20]\n";
+  const auto says = [&](const std::string& keys, const char* words) {
+    const std::string message = mistake_in(single + keys);
+    EXPECT_NE(message.find(words), std::string::npos) << keys << ": " << message;
+  };
+  says("form = 'boxx'\n", "box");
+  says("form_width_m = 2\n", "needs form");
+  says("form = 'box'\nform_height_m = 2\n", "needs form_width_m");
+  says("form = 'box'\nform_width_m = 2\n", "needs form_height_m");
+  says("form = 'box'\nform_width_m = 2\nform_height_m = 2\nclear_stem_m = 2\n", "above its underside");
+  says("form = 'ball'\nform_width_m = 2\nform_height_m = 2\nscale = 0.5\n", "leave scale out");
+  says("form = 'ball'\nform_width_m = 2\nform_height_m = nan\n", "form_height_m");
+  says("clear_stem_m = -1\n", "clear_stem_m");
+}
+
 // docs/recipe.md shows every described key with its unit, range, default and meaning, word for word.
 TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   std::ifstream in(std::string(BOSQUET_SOURCE_DIR) + "/docs/recipe.md");
@@ -160,6 +201,7 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(terrain::PerlinNoise{});
   add(terrain::Stroke{});
   add(distribution::Interaction{});
+  add(TreeOrder{});
   add(distribution::PlantBrush{});
   add(distribution::RowRules{});
   add(distribution::GridRules{});
@@ -173,6 +215,9 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(crowns::SpaceOptions{});
   add(crowns::AsymmetryOptions{});
   add(crowns::LightOptions{});
+  add(scene::ClearanceRules{});
+  add(scene::PlanSettings{});
+  add(scene::Underlay{});
   EXPECT_GT(rows.rows.size(), 100u);
   for (const std::string& row : rows.rows) EXPECT_TRUE(lines.count(row)) << "docs/recipe.md lacks: " << row;
 }
