@@ -1,5 +1,6 @@
 // Validation: the tables of docs/validation.md, which compare grown stands with published claims and measurements.
 //
+// kernel_effects, lansing_planted   patterns that kernels make (planting_statistics.h)
 // uniformity    Ripley's K of tree bases and of crown centroids in clustered samples, as Longay 2014, figure 6.24
 // lansing       the same for the real trees of Lansing Woods
 // crown_bases   where living crowns begin in closed stands of one species, with canopy light on and off, beside
@@ -21,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/planting_statistics.h"
 #include "core/hash.h"
 #include "core/random.h"
 #include "distribution/pattern.h"
@@ -321,7 +323,12 @@ std::string thresholds() {
 // --------------------------------------------------------------------------------------------------------- the page
 
 const std::vector<std::pair<std::string, std::function<std::string()>>> kTables{
-    {"uniformity", uniformity}, {"lansing", lansing}, {"crown_bases", crown_bases}, {"thresholds", thresholds}};
+    {"kernel_effects", bosquet::kernel_effects},
+    {"lansing_planted", bosquet::lansing_planted},
+    {"uniformity", uniformity},
+    {"lansing", lansing},
+    {"crown_bases", crown_bases},
+    {"thresholds", thresholds}};
 
 // Puts a table between its marks.
 void insert(std::string& page, const std::string& name, const std::string& table) {
