@@ -35,12 +35,12 @@ Planting planting(const terrain::Terrain& site, std::vector<Species> list = {spe
 
 Box2 whole(const Planting& p) { return {Vec2{0}, p.terrain().size_m()}; }
 
-RC_GTEST_PROP(Planting, FieldsAfterAnyPlacingRemovingAndMovingEqualFieldsMadeAnew, ()) {
+RC_GTEST_PROP(Planting, FieldsAfterAnyPlacingRemovingMovingAndReplacingEqualFieldsMadeAnew, ()) {
   Planting p = planting(flat({20, 15}));
   p.field(0), p.field(1);  // both exist from the start
   std::vector<std::uint64_t> keys;
   for (int n = 0; n < 40; ++n) {
-    const int what = *rc::gen::inRange(0, 4);
+    const int what = *rc::gen::inRange(0, 5);
     if (what <= 1 || keys.empty()) {
       const Sown sown =
           sow(p, {.seed = 3, .block = 9, .first_index = static_cast<std::uint64_t>(n), .mix = {{0}, {1}}}, whole(p), 1);
@@ -51,6 +51,10 @@ RC_GTEST_PROP(Planting, FieldsAfterAnyPlacingRemovingAndMovingEqualFieldsMadeAne
     if (what == 2) {
       RC_ASSERT(p.remove(keys[which]));
       keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(which));
+    } else if (what == 3) {
+      StandingTree tree = *p.find(keys[which]);
+      tree.species = 1 - tree.species, tree.scale *= 1.3f, tree.trunk_radius_m *= 1.3f, tree.spacing_m += 0.2f;
+      RC_ASSERT(p.replace(tree));
     } else {
       RC_ASSERT(p.move(keys[which], {static_cast<float>(*rc::gen::inRange(0, 200)) / 10.0f,
                                      static_cast<float>(*rc::gen::inRange(0, 150)) / 10.0f}));

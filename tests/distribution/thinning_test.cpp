@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/parallel.h"
+#include "terrain/brush.h"
 #include "terrain/exclusion.h"
 
 namespace bosquet::distribution {
@@ -152,6 +153,21 @@ TEST(Thinning, NothingGrowsOnPathsInWaterOrIntoTreesThatStoodBefore) {
     EXPECT_GT(std::abs(tree.at.y - 50), 2.9f);
     EXPECT_GE(glm::distance(tree.at, old.at), (radius(tree, rules) + radius(old, rules)) * 0.99999f);
   }
+}
+
+TEST(Thinning, SeedlingsAreAsManyAsAskedForAndThinnedByTheDensityMask) {
+  terrain::Terrain site = terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice({100, 100})));
+  const ThinningRules rules{.seedlings_per_ha = 10'000, .years = 1};
+  Planting p = *Planting::make(site, kSpecies, {});
+  EXPECT_EQ(fill_by_thinning(p, kMix, whole(p), rules, kStatures).seedlings, 10'000u);
+  site = terrain::apply(site, {.kind = terrain::BrushKind::density,
+                               .points = {{20, -50}, {20, 150}},
+                               .radius_m = 20,
+                               .hardness = 1.0f,
+                               .density = 0.25f});
+  Planting q = *Planting::make(site, kSpecies, {});
+  const auto thinned = fill_by_thinning(q, kMix, whole(q), rules, kStatures).seedlings;
+  EXPECT_NEAR(static_cast<double>(thinned), 7'000, 4 * std::sqrt(4'000 * 0.25 * 0.75) + 100);  // 40 m of a quarter
 }
 
 TEST(Thinning, NoSeedlingsLeaveNothing) {
