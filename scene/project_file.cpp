@@ -151,6 +151,7 @@ struct ProjectFile::Open {
   ProjectState state;
   std::optional<FileIdentity> file;
   std::int64_t version = 0;  ///< changes when another connection commits
+  bool save_failed = false;  ///< another connection may have undone what was left of it
 
   void remember() {
     file = identity(path);
@@ -261,14 +262,20 @@ Result<void> ProjectFile::save(const Document& document, bool over_edits) {
   if (!open_->state.read_only.empty())
     return Error{fmt::format("{}: cannot be saved: {}", open_->path.string(), open_->state.read_only)};
   const bool gone = !identity(open_->path);
-  const bool changed = !gone && changed_meanwhile();
+  bool changed = !gone && changed_meanwhile();
+  if (changed && open_->save_failed && open_->file == identity(open_->path) && open_->database &&
+      open_->store.holds_what_is_known(*open_->database)) {
+    open_->remember();
+    changed = false;
+  }
   if ((open_->state.edited_elsewhere || changed) && !over_edits)
     return Error{
         fmt::format("{}: was changed by another program; save over it, or under another name", open_->path.string())};
   if (!open_->database || gone || changed) return save_as(document, open_->path);
-  if (auto done = open_->store.write(*open_->database, document, {}); !done) return done;
-  open_->document = document;
-  return {};
+  auto done = open_->store.write(*open_->database, document, {});
+  open_->save_failed = !done;
+  if (done) open_->document = document;
+  return done;
 }
 
 Result<void> ProjectFile::save_as(const Document& document, const fs::path& path) {

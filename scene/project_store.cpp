@@ -764,4 +764,10 @@ Result<StoredDocument> ProjectStore::read(Database& database) {
   return read;
 }
 
+bool ProjectStore::holds_what_is_known(Database& database) const {
+  ProjectStore other;
+  const auto read = other.read(database);
+  return read && read->problems.empty() && !read->trees_edited && other.known_.digests == known_.digests;
+}
+
 }  // namespace bosquet::scene

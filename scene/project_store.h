@@ -53,6 +53,9 @@ class ProjectStore {
   /// Reads all that can be read. Error only when the site itself is unknown.
   Result<StoredDocument> read(Database& database);
 
+  /// Whether the database holds what this store wrote or read last.
+  bool holds_what_is_known(Database& database) const;
+
   /// The next write writes everything.
   void forget() { known_ = {}; }
 

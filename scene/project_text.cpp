@@ -24,6 +24,11 @@ Json settings_json(const Document& d) {
   json["asymmetry"] = described_json(d.asymmetry);
   json["light"] = described_json(d.light);
   json["sun"] = {{"azimuth_deg", json_number(d.sun.azimuth_deg)}, {"elevation_deg", json_number(d.sun.elevation_deg)}};
+  json["clearance"] = described_json(d.clearance);
+  json["plan"] = described_json(d.plan);
+  json["underlay"] = described_json(d.underlay);
+  json["underlay"]["file"] = d.underlay.file;
+  json["underlay"]["south_west"] = json_of(d.underlay.south_west);
   json["max_triangles"] = d.max_triangles;
   json["next_tree_id"] = d.next_tree_id;
   json["next_standing_id"] = d.next_standing_id;
@@ -51,6 +56,19 @@ void read_settings(JsonReader& in, Document& d) {
     JsonReader sun(*json, in.where() + ".sun", in.problems());
     sun.number("azimuth_deg", d.sun.azimuth_deg);
     sun.number("elevation_deg", d.sun.elevation_deg);
+  }
+  read_described(in, "clearance", d.clearance);
+  read_described(in, "plan", d.plan);
+  if (const Json* json = in.find("underlay")) {
+    JsonReader underlay(*json, in.where() + ".underlay", in.problems());
+    // No picture has no width.
+    if (const Json* width = json->find("width_m") == json->end() ? nullptr : &(*json)["width_m"];
+        width && *width != 0.0)
+      describe(d.underlay, underlay);
+    else
+      underlay.number("opacity", d.underlay.opacity);
+    underlay.text("file", d.underlay.file);
+    underlay.vector("south_west", d.underlay.south_west);
   }
   in.count("max_triangles", d.max_triangles);
   in.whole("next_tree_id", d.next_tree_id);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -41,6 +42,20 @@ void tree_columns(T& t, Visit& visit) {
   visit("locked", t.locked);
   visit("overrides", t.overrides);
   visit("studio_edits", t.studio_edits);
+}
+
+Json json_of(const SharedList<ParameterOverride>& list) {
+  Json all = Json::object();
+  for (const ParameterOverride& o : list)
+    std::visit(
+        [&](const auto& v) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
+            all[o.key] = json_number(v);
+          else
+            all[o.key] = v;
+        },
+        o.value);
+  return all;
 }
 
 // The values of a row as SQLite keeps them, hashed by type and bits, and bound where there is a statement.
@@ -87,17 +102,7 @@ class RowSink {
   }
   void operator()(const char*, const SharedList<ParameterOverride>& list) {
     if (list.empty()) return null();
-    Json all = Json::object();
-    for (const ParameterOverride& o : list)
-      std::visit(
-          [&](const auto& v) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>)
-              all[o.key] = json_number(v);
-            else
-              all[o.key] = v;
-          },
-          o.value);
-    text(text_of(all));
+    text(text_of(json_of(list)));
   }
   void operator()(const char*, const SharedList<std::string>& list) {
     if (list.empty()) return null();
@@ -111,6 +116,32 @@ class RowSink {
   Hasher128 hash_;
   int place_ = 0;
 };
+
+std::optional<SharedList<ParameterOverride>> overrides_of(const Json& json) {
+  if (!json.is_object()) return {};
+  std::vector<ParameterOverride> read;
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_boolean())
+      read.push_back({key, value.get<bool>()});
+    else if (const auto n = value.is_number() ? number_of(value) : std::nullopt)
+      read.push_back({key, *n});
+    else if (value.is_string())
+      read.push_back({key, value.get<std::string>()});
+    else
+      return {};
+  }
+  return SharedList<ParameterOverride>(std::move(read));
+}
+
+std::optional<SharedList<std::string>> texts_of(const Json& json) {
+  if (!json.is_array()) return {};
+  std::vector<std::string> read;
+  for (const Json& one : json) {
+    if (!one.is_string()) return {};
+    read.push_back(one.get<std::string>());
+  }
+  return SharedList<std::string>(std::move(read));
+}
 
 // GeoPackage point: header without envelope, then well-known binary, all little-endian.
 using Point = std::array<std::byte, 29>;
@@ -231,29 +262,16 @@ class RowSource {
   void operator()(const char* name, SharedList<ParameterOverride>& list) {
     const auto json = json_text(name);
     if (!json) return;
-    if (!json->is_object()) return wrong(name);
-    std::vector<ParameterOverride> read;
-    for (const auto& [key, value] : json->items()) {
-      if (value.is_boolean())
-        read.push_back({key, value.get<bool>()});
-      else if (const auto n = value.is_number() ? number_of(value) : std::nullopt)
-        read.push_back({key, *n});
-      else if (value.is_string())
-        read.push_back({key, value.get<std::string>()});
-      else
-        return wrong(name);
-    }
-    list = std::move(read);
+    auto read = overrides_of(*json);
+    if (!read) return wrong(name);
+    list = *std::move(read);
   }
   void operator()(const char* name, SharedList<std::string>& list) {
     const auto json = json_text(name);
     if (!json) return;
-    std::vector<std::string> read;
-    for (const Json& one : *json) {
-      if (!one.is_string()) return wrong(name);
-      read.push_back(one.get<std::string>());
-    }
-    list = std::move(read);
+    auto read = texts_of(*json);
+    if (!read) return wrong(name);
+    list = *std::move(read);
   }
 
   std::string wrong_columns;
@@ -279,6 +297,79 @@ class RowSource {
   Statement& row_;
   const std::vector<int>& place_;
   std::size_t at_ = 0;
+};
+
+// A tree's fields as texts.
+struct TextSink {
+  std::vector<std::string> names, texts;
+
+  void put(const char* name, std::string text) { names.emplace_back(name), texts.push_back(std::move(text)); }
+  void operator()(const char* name, float v) { put(name, fmt::format("{}", v)); }
+  void operator()(const char* name, const std::optional<float>& v) { put(name, v ? fmt::format("{}", *v) : ""); }
+  void operator()(const char* name, bool v) { put(name, v ? "1" : "0"); }
+  void operator()(const char* name, std::uint64_t v) { put(name, fmt::format("{}", v)); }
+  void operator()(const char* name, const std::string& v) { put(name, v); }
+  template <class Enum, std::size_t N>
+  void operator()(const char* name, Enum v, const std::array<std::string_view, N>& words) {
+    put(name, std::string(words[static_cast<std::size_t>(v)]));
+  }
+  void operator()(const char* name, const SharedList<ParameterOverride>& list) {
+    put(name, list.empty() ? "" : text_of(json_of(list)));
+  }
+  void operator()(const char* name, const SharedList<std::string>& list) {
+    put(name, list.empty() ? "" : text_of(Json(list.all())));
+  }
+};
+
+// Puts a text into the field with this name.
+struct TextSource {
+  std::string_view name, text;
+  bool done = false;
+
+  template <class Number>
+  bool number(Number& v) {
+    Number read{};
+    const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), read);
+    if (mistake != std::errc() || end != text.data() + text.size()) return false;
+    if constexpr (std::is_floating_point_v<Number>)
+      if (!std::isfinite(read)) return false;
+    v = read;
+    return true;
+  }
+  void operator()(const char* field, float& v) {
+    if (name == field) done = number(v);
+  }
+  void operator()(const char* field, std::optional<float>& v) {
+    if (name == field) done = text.empty() || number(v.emplace());
+  }
+  void operator()(const char* field, bool& v) {
+    if (name == field) done = text == "0" || text == "1", v = text == "1";
+  }
+  void operator()(const char* field, std::uint64_t& v) {
+    if (name == field) done = number(v);
+  }
+  void operator()(const char* field, std::string& v) {
+    if (name == field) done = true, v = text;
+  }
+  template <class Enum, std::size_t N>
+  void operator()(const char* field, Enum& v, const std::array<std::string_view, N>& words) {
+    if (name != field) return;
+    const auto found = std::find(words.begin(), words.end(), text);
+    if (found == words.end()) return;
+    v = static_cast<Enum>(found - words.begin()), done = true;
+  }
+  void operator()(const char* field, SharedList<ParameterOverride>& list) { list_of(field, list, overrides_of); }
+  void operator()(const char* field, SharedList<std::string>& list) { list_of(field, list, texts_of); }
+
+ private:
+  template <class List, class Of>
+  void list_of(const char* field, List& list, const Of& of) {
+    if (name != field) return;
+    if (text.empty()) return void(done = true);
+    const auto json = parse_json(text);
+    auto read = json ? of(*json) : std::nullopt;
+    if (read) list = *std::move(read), done = true;
+  }
 };
 
 // Sizes beyond these are nobody's tree.
@@ -381,6 +472,25 @@ std::string tree_table() {
   std::string sql;
   for (const auto& [name, type] : columns()) add_word(sql, fmt::format("{} {}", name, type));
   return "CREATE TABLE trees (" + sql + ")";
+}
+
+std::vector<std::string> tree_field_names() {
+  TextSink sink;
+  const Tree tree;
+  tree_columns(tree, sink);
+  return sink.names;
+}
+
+std::vector<std::string> tree_fields(const Tree& tree) {
+  TextSink sink;
+  tree_columns(tree, sink);
+  return sink.texts;
+}
+
+bool set_tree_field(Tree& tree, std::string_view name, std::string_view text) {
+  TextSource source{name, text};
+  tree_columns(tree, source);
+  return source.done;
 }
 
 std::vector<std::string> species_labels(const Document& document) {

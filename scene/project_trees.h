@@ -22,6 +22,12 @@ std::string tree_table();
 /// Names by which rows tell species, in the document's order.
 std::vector<std::string> species_labels(const Document& document);
 
+/// The fields of tree_columns() as texts, for tables that people read: their names, a tree's values, and a value put back
+/// (false when there is no such field or the text is none of its values).
+std::vector<std::string> tree_field_names();
+std::vector<std::string> tree_fields(const Tree& tree);
+bool set_tree_field(Tree& tree, std::string_view name, std::string_view text);
+
 class TreeRows {
  public:
   /// Rows of documents with this reference system and these species.
