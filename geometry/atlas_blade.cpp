@@ -251,7 +251,7 @@ void LeafBlade::make_compound(const LeafLook& look, RandomStream& stream) {
   leaflet_ = 0.5f * look.width_mm / look.length_mm / lean.sin;
   first_pair_ = 0.18f;
   pair_spacing_ = (1.0f - 0.9f * leaflet_ - first_pair_) / (static_cast<float>(pairs_) - 0.35f);
-  make_profiles(look, stream, 0.34f);
+  make_profiles(look, stream, 0.28f);
   half_width_ = 0.5f * look.width_mm / look.length_mm * 1.06f;
 }
 

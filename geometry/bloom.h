@@ -2,6 +2,7 @@
 //
 // Source    Longay 2014, C.1.3: an organ stands where p = r L^2 passes a threshold, r a hash of the position, L the
 //           exposure there: blossom and fruit in the light, hardly any in the shade
+// Decision  L is the rank of the exposure in its crown, 0..1: exposures of different trees and detail then mean the same
 // Model     a leaf atlas (leaf_atlas.h) of a season with a bloom shows it in its first column, on a leafed twig and as
 //           one bunch alone; the second column stays plain. A twig of the tree blooms when r L^2 > 1 - share
 // Decision  flower and fruit are two Blooms of a species; should both be there in a season, the fruit is shown
@@ -75,7 +76,7 @@ void describe_bloom(Parameters& p, Visitor& visit, const BloomNames& name) {
   visit(Real{name.size, "mm", 1, 300, "A flower, fruit or cone across or, hanging, long"}, p.size_mm);
   visit(Whole{name.count, 1, 200, "Flowers or fruit in a bunch"}, p.count);
   visit(Whole{name.bunches, 1, 40, "Bunches on a leafed twig"}, p.bunches);
-  visit(Real{name.share, "", 0, 1, "r L^2 > 1 - share: share of the twigs in full light that have them, less in shade"},
+  visit(Real{name.share, "", 0, 1, "Share of the brightest twigs that have them; r L^2 > 1 - share, so fewer in shade"},
         p.share);
   visit(Switch{name.before_leaves, "Leaves of such twigs are still folded"}, p.before_leaves);
 }

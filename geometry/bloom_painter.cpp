@@ -38,7 +38,7 @@ class BunchPainter {
       case BloomForm::none:
         return;
       case BloomForm::blossom:
-        return each(node, angle, 70.0f, 1.0f, [&](Vec2 at, float turn) { flower(at, turn); });
+        return each(node, angle, 50.0f, 1.25f, [&](Vec2 at, float turn) { flower(at, turn); });
       case BloomForm::corymb:
         return corymb(node, angle);
       case BloomForm::tuft:
@@ -119,7 +119,7 @@ class BunchPainter {
 
   void tuft(Vec2 node, float angle) {
     const float radius = head_radius(bloom_);
-    const Vec2 middle = node + heading(angle) * (0.6f * radius);
+    const Vec2 middle = node + heading(angle) * (1.05f * radius);
     for (int k = 0; k < bloom_.count; ++k) {
       const Vec2 at = middle + heading(spread(180.0f)) * (radius * std::sqrt(stream_.uniform()));
       canvas_.rod(node, at, thin(), thin(), stalk_, stalk_);
@@ -239,12 +239,13 @@ float bunch_extent_m(const Bloom& b) {
     case BloomForm::none:
       return 0.0f;
     case BloomForm::blossom:
+      return 1.8f * size;
     case BloomForm::keys:
-      return 1.6f * size;
+      return 1.5f * size;
     case BloomForm::corymb:
       return 2.1f * head_radius(b) + size;
     case BloomForm::tuft:
-      return 1.7f * head_radius(b) + size;
+      return 2.1f * head_radius(b) + size;
     case BloomForm::catkin:
       return 1.05f * size + 0.002f;
     case BloomForm::balls:
@@ -265,7 +266,7 @@ float bunch_half_width_m(const Bloom& b) {
   switch (b.form) {
     case BloomForm::blossom:
     case BloomForm::keys:
-      return 1.45f * size;
+      return 1.55f * size;
     case BloomForm::drupes:
     case BloomForm::nuts:
       return 1.5f * size;

@@ -25,13 +25,39 @@ RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32
   return {in.seed, mix_bits(in.key) + which, Purpose::foliage};
 }
 
-/// r L^2 > 1 - share: r is a hash of the twig's place, L its exposure.
-bool blooms(const FoliageInput& in, const Bloom* bloom, const LeafSite& site) {
+/// Exposure of leafy wood beside that of its crown. Even a free tree's leaves shade each other so much that few see half of
+/// the sky; eyes and cameras take the brightest for white.
+class CrownLight {
+ public:
+  CrownLight(const growth::Skeleton& s, const ThickestPaths& paths, const std::vector<std::uint8_t>& bears)
+      : light_(s.light) {
+    for (std::uint32_t i : paths.internodes)
+      if (bears[i]) sorted_.push_back(s.light[i]);
+    std::sort(sorted_.begin(), sorted_.end());
+    if (!sorted_.empty()) scale_ = 1.0f / std::clamp(sorted_[sorted_.size() * 19 / 20], 0.02f, 1.0f);
+  }
+  /// 1 where nineteen of twenty are darker, in proportion below.
+  float at(std::uint32_t internode) const { return std::clamp(light_[internode] * scale_, 0.0f, 1.0f); }
+
+  /// Share of the leafy wood that is not brighter.
+  float rank(std::uint32_t internode) const {
+    const auto above = std::upper_bound(sorted_.begin(), sorted_.end(), light_[internode]);
+    return sorted_.empty() ? 1.0f : static_cast<float>(above - sorted_.begin()) / static_cast<float>(sorted_.size());
+  }
+
+ private:
+  const std::vector<float>& light_;
+  std::vector<float> sorted_;
+  float scale_ = 1.0f;
+};
+
+/// r L^2 > 1 - share: r is a hash of the twig's place, L the rank of its exposure in the crown.
+bool blooms(const FoliageInput& in, const Bloom* bloom, const LeafSite& site, const CrownLight& light) {
   if (!bloom) return false;
   constexpr std::uint64_t kBlooming = 990;
   const float r = static_cast<float>(stream(in, site.internode, site.place).at(kBlooming) >> 40) * 0x1p-24f;
-  const float light = std::clamp(in.skeleton->light[site.internode], 0.0f, 1.0f);
-  return r * light * light > 1.0f - bloom->share;
+  const float rank = light.rank(site.internode);
+  return r * rank * rank > 1.0f - bloom->share;
 }
 
 /// Bunches that hang from their stalks; others stand out from their twig.
@@ -87,13 +113,19 @@ LeafFrame stalk(const Vec3& twig, const Vec3& radial, const SinCos& angle) {
   return {heading, glm::cross(up, heading), up};
 }
 
-/// The unit vector across `twig` at this azimuth; azimuth 0 is level, so that two-ranked leaves make flat sprays.
-Vec3 radial_at(const Vec3& twig, float azimuth) {
-  const Vec3 level = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
-  const Vec3 side = unit(level - glm::dot(level, twig) * twig, Vec3{0, 0, 1});
-  const SinCos a = sin_cos(azimuth);
-  return a.cos * side + a.sin * glm::cross(side, twig);
-}
+/// Unit vectors across a twig: `side` level, so that two-ranked leaves make flat sprays, `over` at a right angle.
+struct Across {
+  Vec3 side, over;
+  explicit Across(const Vec3& twig) {
+    const Vec3 level = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
+    side = unit(level - glm::dot(level, twig) * twig, Vec3{0, 0, 1});
+    over = glm::cross(side, twig);
+  }
+  Vec3 at(const SinCos& azimuth) const { return azimuth.cos * side + azimuth.sin * over; }
+};
+
+/// The sum of two angles.
+SinCos sum(const SinCos& a, const SinCos& b) { return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin}; }
 
 /// Where a blade or twig that hangs `droop` below level, away from its foot, points, and the normal of its upper side.
 struct Hanging {
@@ -126,14 +158,16 @@ float leaf_occlusion(float light) { return 0.3f + 0.7f * occlusion(light); }
 /// Writes cards: strips of `columns` quads across, one row.
 class Cards {
  public:
-  Cards(const Crown& crown, float soft) : crown_(crown), soft_(soft) {}
+  /// `small`: cards over which the crown's outward direction hardly changes.
+  Cards(const Crown& crown, float soft, bool small) : crown_(crown), soft_(soft), small_(small) {}
 
   /// A card with its foot at `foot`, `length` along `heading`; `sides` are the directions from its midline to the left
   /// and right edge (two halves, or one flat card when they are opposite), `normals` those of the halves.
   void add(const Vec3& foot, const Vec3& heading, float length, float half_width, const Vec3& left, const Vec3& right,
            const Vec3& up, const AtlasCell& uv, Rgba8 colour, bool folded) {
     const Vec3 to_top = length * heading;
-    const float facing = glm::dot(up, crown_.outward(foot + 0.5f * to_top));
+    const Vec3 outward = crown_.outward(foot + 0.5f * to_top);
+    const float facing = glm::dot(up, outward);
     const bool front = facing >= 0.0f;
     // A card seen edge-on from outside shows both its sides there: its normals stay its own, or one side would be
     // black.
@@ -142,11 +176,16 @@ class Cards {
     const Vec3 l = half_width * left, r = half_width * right;
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     const Vec3 across = unit(right - left, left);
-    const auto corner = [&](const Vec3& p, float u, float v, float side) {
+    const Vec3 flat = front ? up : -up, of_all = unit(glm::mix(flat, outward, soft), kUp);
+    const auto normal = [&](const Vec3& p, float side) {
+      if (small_ && !folded) return of_all;
       // Halves of a folded card look a little to their own side.
-      const Vec3 face = (front ? 1.0f : -1.0f) * up + (folded ? 0.35f * side * across : Vec3(0.0f));
+      const Vec3 face = folded ? unit(flat + 0.35f * side * across, up) : flat;
+      return unit(glm::mix(face, crown_.outward(p), soft), kUp);
+    };
+    const auto corner = [&](const Vec3& p, float u, float v, float side) {
       mesh.positions.push_back(p);
-      mesh.normals.push_back(unit(glm::mix(unit(face, up), crown_.outward(p), soft), kUp));
+      mesh.normals.push_back(normal(p, side));
       mesh.uvs.push_back({u, v});
       mesh.colours.push_back(colour);
     };
@@ -172,6 +211,7 @@ class Cards {
  private:
   const Crown& crown_;
   float soft_;
+  bool small_;
 };
 
 AtlasCell inset(AtlasCell cell, float share_of_width) {
@@ -188,8 +228,8 @@ AtlasCell wood_cell() {
 }
 
 /// How far up its twig a leaf stands, 0..1.
-float place_on_twig(const LeafLook& leaf, int number, float jitter) {
-  const float x = (static_cast<float>(number) + jitter) / static_cast<float>(leaf.cluster_leaves);
+float place_on_twig(const LeafLook& leaf, int number, int leaves, float jitter) {
+  const float x = (static_cast<float>(number) + jitter) / static_cast<float>(leaves);
   return leaf.cluster == ClusterForm::tuft ? 0.55f + 0.45f * x : 0.12f + 0.88f * x;
 }
 
@@ -203,9 +243,11 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
   if (level == FoliageLevel::leaves && !leafed) return sites;
   const bool single = level == FoliageLevel::leaves;
   const Bloom* bloom = bloom_of(in.look->leaf, in.season);
+  const int leaves = single ? single_leaves(in.look->leaf) : 0;
   const float fallen = in.season == Season::autumn && !in.look->leaf.evergreen ? look.autumn_fall : 0.0f;
   const float divergence = radians(look.divergence_deg);
   const std::vector<std::uint8_t> bears = bearing(in);
+  const CrownLight crown_light(s, *in.paths, bears);
 
   for (const ThickestPaths::Path& path : in.paths->paths) {
     const auto run = in.paths->of(path);
@@ -242,14 +284,14 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
         const float twig_size = site.size;
         site.leaf = LeafSite::kTwigWood;
         sites.push_back(site);
-        for (int number = 0; number < in.look->leaf.cluster_leaves; ++number) {
+        for (int number = 0; number < leaves; ++number) {
           RandomStream of_leaf = stream(in, i, place, number);
           site.leaf = static_cast<std::int16_t>(number);
           site.size = twig_size * (1.0f + look.size_variation * of_leaf.uniform(-1.0f, 1.0f));
           if (of_leaf.uniform() >= fallen) sites.push_back(site);
         }
         site.size = 1.0f;
-        if (blooms(in, bloom, site))
+        if (blooms(in, bloom, site, crown_light))
           for (int bunch = 0; bunch < bloom->bunches; ++bunch) {
             site.leaf = static_cast<std::int16_t>(LeafSite::kFirstBunch + bunch);
             sites.push_back(site);
@@ -258,6 +300,30 @@ std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
     }
   }
   return sites;
+}
+
+int single_leaves(const LeafLook& leaf) {
+  const float cell = cluster_cell_m(leaf), all = static_cast<float>(leaf.cluster_leaves);
+  float blade = 1e-6f * leaf.length_mm * leaf.width_mm;
+  switch (leaf.outline) {
+    case LeafOutline::needle_spray:
+    case LeafOutline::scale_cord:
+      return leaf.cluster_leaves;  // side shoots, which do not hide each other
+    case LeafOutline::pinnate_compound:
+      blade *= 0.45f;
+      break;
+    case LeafOutline::palmate:
+      blade *= 0.5f;
+      break;
+    default:
+      blade *= 0.66f;
+  }
+  // Leaves of the picture are turned away by some degree and smaller toward the shoot's end; thrown at random on the part
+  // of the cell that the twig fills they cover 1 - exp(-area) of it.
+  constexpr float kSeen = 0.68f;
+  const float filled = leaf.cluster == ClusterForm::strings ? 0.35f : 0.62f;
+  const float region = filled * cell * cell, shown = region * (1.0f - exp2(-1.442695f * kSeen * all * blade / region));
+  return std::clamp(static_cast<int>(shown / blade + 0.5f), std::min(3, leaf.cluster_leaves), leaf.cluster_leaves);
 }
 
 std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
@@ -276,17 +342,21 @@ LeafFrame turn_petiole(LeafFrame f, const Vec3& toward, float twist, float bend,
   // Steps small enough that the first-order turn is stable.
   const int steps = 4 + static_cast<int>(2.0f * std::max({twist, bend, turn}));
   const float ds = 1.0f / static_cast<float>(steps);
+  // Nearly a unit vector to one: a step of Newton's for the inverse root. Exactly at the end.
+  const auto nearly_unit = [](const Vec3& v) { return v * (1.5f - 0.5f * glm::dot(v, v)); };
   for (int k = 0; k < steps; ++k) {
     const float ht = glm::dot(f.heading, toward), lt = glm::dot(f.left, toward);
-    const float about_h = -twist * lt * ds;
-    const float about_l = bend * ht * ds;
-    const float about_u = turn * glm::dot(f.left, glm::cross(toward, glm::cross(f.heading, toward))) * ds;
+    // L.(T x (H x T)) = L.H (T.T) - (L.T)(H.T), and L.H = 0.
+    const float about_h = -twist * lt * ds, about_l = bend * ht * ds, about_u = -turn * lt * ht * ds;
     const Vec3 heading = f.heading - about_l * f.up + about_u * f.left;
     const Vec3 up = f.up - about_h * f.left + about_l * f.heading;
-    f.heading = glm::normalize(heading);
-    f.up = glm::normalize(up - glm::dot(up, f.heading) * f.heading);
+    f.heading = nearly_unit(heading);
+    f.up = nearly_unit(up - glm::dot(up, f.heading) * f.heading);
     f.left = glm::cross(f.up, f.heading);
   }
+  f.heading = glm::normalize(f.heading);
+  f.up = glm::normalize(f.up - glm::dot(f.up, f.heading) * f.heading);
+  f.left = glm::cross(f.up, f.heading);
   return f;
 }
 
@@ -321,21 +391,25 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   const bool needles = is_needle(leaf.outline);
   const Bloom* bloom = bloom_of(leaf, in.season);
   const float bunch_m = bloom && single ? bunch_cell_m(*bloom) * kFilled : 0.0f;
+  const int leaves = single ? single_leaves(leaf) : 0;
   const bool folded_leaves = bloom && bloom->before_leaves && in.season == Season::spring;
   const float narrow = needles ? 1.0f : std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f);
   const SinCos leaf_droop = sin_cos(radians(leaf.droop_deg)), twig_droop = sin_cos(radians(look.cluster_droop_deg));
   const SinCos insertion = sin_cos(radians(look.insertion_deg));
   const bool folded = level == FoliageLevel::clusters && look.cluster_planes == 1;
   const int planes = level == FoliageLevel::clusters ? look.cluster_planes : 1;
+  // A card of far trees has the area of all planes of the clusters that it stands for.
+  const float of_planes = level == FoliageLevel::cards ? std::sqrt(static_cast<float>(look.cluster_planes)) : 1.0f;
   const SinCos fold = sin_cos(radians(folded ? look.fold_deg : 0.0f));
 
   const Crown crown(s, sites);
+  const CrownLight crown_light(s, *in.paths, bearing(in));
   RandomStream of_tree = stream(in, 0xffffffff, kOfInternode);
   const float tree_warmth = look.tree_hue * of_tree.uniform(-0.5f, 0.5f);
   const float tree_value = 1.0f - 0.16f * look.tree_hue * of_tree.uniform();
   const float mottle = in.season == Season::autumn && !leaf.evergreen ? 0.35f : 0.12f;
 
-  Cards cards(crown, look.soft_normals);
+  Cards cards(crown, look.soft_normals, single);
   const std::size_t triangles = count * triangles_per_site(look, level);
   const std::size_t vertices = folded ? 6 * count : 2 * triangles;
   cards.mesh.positions.reserve(vertices), cards.mesh.normals.reserve(vertices), cards.mesh.uvs.reserve(vertices);
@@ -346,6 +420,12 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   Vec3 twig_at{0.0f}, out = kUp;
   LeafFrame twig_frame{};
   bool blooming = false;
+  SinCos twig_azimuth{0.0f, 1.0f};
+  Across twig_across(kUp);
+  std::vector<SinCos> turned;  // of the leaves of a twig, one after the other
+  if (single)
+    for (int number = 0; number < std::max(leaves, bloom ? bloom->bunches : 0); ++number)
+      turned.push_back(sin_cos(radians(look.divergence_deg) * static_cast<float>(number)));
   for (std::size_t k = 0; k < n; ++k) {
     if (!kept(k)) continue;
     const LeafSite& site = sites[k];
@@ -353,17 +433,19 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
 
     // Where the twig stands on its branch and how it turns; wood turns less than a leaf's stalk. Leaves of one twig
     // come one after the other.
-    const float light = std::clamp(s.light[i], 0.0f, 1.0f);
+    const float light = crown_light.at(i);
     RandomStream of_twig = stream(in, i, site.place);
     if (i != last_internode || site.place != last_place) {
       last_internode = i, last_place = site.place;
-      blooming = blooms(in, bloom, site);
+      blooming = blooms(in, bloom, site, crown_light);
       const Vec3 from = s.proximal(i), to = s.distal[i];
-      const Vec3 branch = unit(to - from, kUp), radial = radial_at(branch, site.azimuth);
+      const Vec3 branch = unit(to - from, kUp);
+      const Across across(branch);
+      twig_azimuth = sin_cos(site.azimuth);
+      const Vec3 radial = across.at(twig_azimuth);
       twig_at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
       out = crown.outward(twig_at);
-      const LeafFrame foot =
-          site.tip ? stalk(branch, radial_at(branch, 0.5f * kPi), {0.0f, 1.0f}) : stalk(branch, radial, insertion);
+      const LeafFrame foot = site.tip ? stalk(branch, across.over, {0.0f, 1.0f}) : stalk(branch, radial, insertion);
       // A card that stands for many looks out of the crown, a piece of its shell.
       const Hanging hang = hanging(foot.heading, twig_droop, out);
       const auto any = [&](std::uint64_t number) {
@@ -376,6 +458,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       const float ease = 0.6f * (0.9f + 0.3f * any(3)) * (1.0f + shell);
       twig_frame = turn_petiole(sunk(foot, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
                                 ease * look.turn);
+      if (single) twig_across = Across(twig_frame.heading);
     }
 
     // A single leaf stands on its twig as the twig on the branch.
@@ -389,7 +472,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       // Spread along the twig, hanging down or standing out.
       const Vec3 twig = frame.heading;
       const int number = site.leaf - LeafSite::kFirstBunch;
-      const Vec3 radial = radial_at(twig, radians(look.divergence_deg) * static_cast<float>(number) + site.azimuth);
+      const Vec3 radial = twig_across.at(sum(turned[static_cast<std::size_t>(number)], twig_azimuth));
       at += (0.25f + 0.7f * (static_cast<float>(number) + random.uniform()) / static_cast<float>(bloom->bunches)) *
             0.8f * twig_m * twig;
       frame = stalk(twig, radial, insertion);
@@ -399,9 +482,9 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       frame.left = glm::cross(frame.up, frame.heading);
     } else if (single && !wood) {
       const Vec3 twig = frame.heading;
-      const float azimuth = radians(look.divergence_deg) * static_cast<float>(site.leaf) + site.azimuth;
-      at += place_on_twig(leaf, site.leaf, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
-      frame = stalk(twig, radial_at(twig, azimuth), insertion);
+      const SinCos azimuth = sum(turned[static_cast<std::size_t>(site.leaf)], twig_azimuth);
+      at += place_on_twig(leaf, site.leaf, leaves, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
+      frame = stalk(twig, twig_across.at(azimuth), insertion);
       const Hanging hang = hanging(frame.heading, leaf_droop, out);
       const Vec3 toward = unit(glm::mix(hang.normal, out, look.sun_turn * light), kUp);
       const float ease = random.uniform(0.6f, 1.2f);
@@ -434,8 +517,8 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       continue;
     }
     // A card that stands for many grows around its place, not out of the crown.
-    const float length =
-        (single ? leaf_m : twig_m) * site.size * growth * (single && blooming && folded_leaves ? kFoldedLeaf : 1.0f);
+    const float length = (single ? leaf_m : twig_m) * site.size * growth * of_planes *
+                         (single && blooming && folded_leaves ? kFoldedLeaf : 1.0f);
     const float half_width = 0.5f * length * (single ? narrow : 1.0f);
     const Vec3 foot = at - 0.5f * crowding * length * frame.heading;
     for (int plane = 0; plane < planes; ++plane) {

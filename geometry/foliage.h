@@ -22,7 +22,7 @@
 //           renderers that turn normals on back faces (glTF, double sided) then shade a crown as a soft volume
 // Bloom     a twig in flower or fruit (bloom.h) shows the atlas' first column: at level clusters and cards the twig with
 //           its bunches, at level leaves its bunches one by one besides the leaves
-// Colour    linear, times the atlas: occlusion by the skeleton's light, a turn toward yellow with low vigor, variation
+// Colour    linear, times the atlas: occlusion by the skeleton's light relative to that of the crown's open side, a turn toward yellow with low vigor, variation
 //           by tree and by card
 // Units     metres and degrees as named; tree frame
 // Holds     the same bits anywhere; a card's random numbers are keyed by its internode and its place there, so they do
@@ -132,6 +132,10 @@ struct FoliageInput {
 /// All sites of a level, along the branches from path to path. None on a bare tree without leaves, except that clusters
 /// and cards go on showing their twigs.
 std::vector<LeafSite> leaf_sites(const FoliageInput& input, FoliageLevel level);
+
+/// Leaves that stand one by one on a twig at level leaves: so many as show the area that the twig's picture shows, where
+/// leaves hide each other in part.
+int single_leaves(const LeafLook& leaf);
 
 /// Triangles of one site's cards at this level (of one leaf, where leaves are single).
 std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level);

@@ -13,7 +13,10 @@
 namespace bosquet::geometry {
 namespace {
 
-constexpr int kTwigs = 26;
+// How many twigs a mass may have; of these the number is taken whose cover is nearest to that of the twig itself, so that
+// a card shows as much leaf at this level as at the one before.
+constexpr int kMostTwigs = 48;
+constexpr std::array<int, 7> kTwigCounts{8, 11, 15, 20, 27, 36, kMostTwigs};
 // Half the width of the mass as a share of the cell, before its twigs stick out.
 constexpr float kMassRadius = 0.36f;
 // Light that the twigs farthest behind show.
@@ -58,10 +61,10 @@ struct Placed {
   int variant = 0;
 };
 
-std::vector<Placed> place_twigs(int cell, std::uint64_t seed) {
+std::vector<Placed> place_twigs(int cell, std::uint64_t seed, int count) {
   RandomStream random(seed, mix_bits(700 + static_cast<std::uint64_t>(cell)), Purpose::texture);
   std::vector<Placed> twigs;
-  for (int k = 0; k < kTwigs; ++k) {
+  for (int k = 0; k < count; ++k) {
     // Uniform in a disc; twigs point outward and up, as they do all around a bough.
     const float radius = kMassRadius * std::sqrt(random.uniform());
     const SinCos around = sin_cos(2.0f * kPi * random.uniform());
@@ -72,7 +75,7 @@ std::vector<Placed> place_twigs(int cell, std::uint64_t seed) {
     twig.along = out;
     twig.size = kTwigScale * random.uniform(0.85f, 1.15f);
     twig.foot = Vec2(0.5f, 0.55f) + place - 0.45f * twig.size * out;
-    const float front = static_cast<float>(k) / static_cast<float>(kTwigs - 1);
+    const float front = static_cast<float>(k) / static_cast<float>(count - 1);
     twig.shade = kBackShade + (1.0f - kBackShade) * front;
     twig.variant = cell;  // in a season with a bloom only the first shows it
     twigs.push_back(twig);
@@ -95,32 +98,63 @@ Texel paint(const std::vector<Placed>& placed, const std::array<Twig, 2>& twigs,
 
 }  // namespace
 
+namespace {
+
+// Mean of some texels, colour not premultiplied.
+Texel mean_of(const std::vector<Texel>& texels) {
+  Texel all;
+  for (const Texel& t : texels) all.colour += t.colour, all.alpha += t.alpha;
+  const Vec3 colour = all.alpha > 0.0f ? all.colour / all.alpha : Vec3(0.0f);
+  return {colour, all.alpha / static_cast<float>(texels.size())};
+}
+
+bool on_card(Vec2 at) {
+  const Vec2 rim = glm::min(at, 1.0f - at);
+  return std::min(rim.x, rim.y) > kAtlasMargin;
+}
+
+// The placement whose cover, probed on a coarse grid, is nearest to the twig's.
+std::vector<Placed> as_full_as(float cover, const std::array<Twig, 2>& twigs, int cell, std::uint64_t seed) {
+  constexpr int kProbes = 48;
+  std::vector<Placed> best;
+  float least = 2.0f;
+  for (const int count : kTwigCounts) {
+    std::vector<Placed> placed = place_twigs(cell, seed, count);
+    float sum = 0.0f;
+    for (int y = 0; y < kProbes; ++y)
+      for (int x = 0; x < kProbes; ++x) sum += paint(placed, twigs, (Vec2(x, y) + 0.5f) / float{kProbes}).alpha;
+    const float off = std::fabs(sum / (kProbes * kProbes) - cover);
+    if (off < least) least = off, best = std::move(placed);
+  }
+  return best;
+}
+
+}  // namespace
+
 LeafAtlas make_foliage_mass(const LeafAtlas& leaves, std::uint64_t seed) {
   const std::array<Twig, 2> twigs{Twig(leaves.base_colour, 0), Twig(leaves.base_colour, 1)};
   const int side = leaves.base_colour.width / 4;
   LeafAtlas mass;
   Image& image = mass.base_colour = Image(2 * side, 2 * side, 4);
   for (int cell = 0; cell < 2; ++cell) {
-    const std::vector<Placed> placed = place_twigs(cell, seed);
+    const Texel twig = mean_of(twigs[static_cast<std::size_t>(cell)].texels);
+    const std::vector<Placed> placed = as_full_as(twig.alpha, twigs, cell, seed);
     std::vector<Texel> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     parallel_for(static_cast<std::size_t>(side), [&](std::size_t y) {
       for (std::size_t x = 0; x < static_cast<std::size_t>(side); ++x) {
         const Vec2 at = (Vec2(x, y) + 0.5f) / static_cast<float>(side);
-        const Vec2 rim = glm::min(at, 1.0f - at);
-        if (std::min(rim.x, rim.y) > kAtlasMargin)
-          texels[y * static_cast<std::size_t>(side) + x] = paint(placed, twigs, at);
+        if (on_card(at)) texels[y * static_cast<std::size_t>(side) + x] = paint(placed, twigs, at);
       }
     });
-    // Where nothing stands the mean colour goes on, so that filtering finds no dark rim.
-    Texel all;
-    for (const Texel& t : texels) all.colour += t.colour, all.alpha += t.alpha;
-    const Vec3 mean = all.alpha > 0.0f ? all.colour / all.alpha : Vec3(0.0f);
+    // What shade among the twigs takes from the mean colour is given back, for it to stay that of the twig. Where
+    // nothing stands the mean colour goes on, so that filtering finds no dark rim.
+    const Vec3 mean = mean_of(texels).colour, back = twig.colour / glm::max(mean, Vec3(1e-4f));
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
         const Texel& t =
             texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)];
         std::uint8_t* pixel = image.at(cell * side + x, y);
-        put_srgb(pixel, t.alpha > 0.01f ? t.colour / t.alpha : mean);
+        put_srgb(pixel, back * (t.alpha > 0.01f ? t.colour / t.alpha : mean));
         pixel[3] = unit_byte(t.alpha);
       }
   }

@@ -113,7 +113,7 @@ std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const
   }
   auto sites = static_cast<std::size_t>(leafy_m / static_cast<double>(foliage.cluster_spacing_m));
   if (options.foliage == FoliageLevel::leaves)
-    sites *= has_leaves(look.leaf, options.season) ? static_cast<std::size_t>(look.leaf.cluster_leaves) + 1 : 0;
+    sites *= has_leaves(look.leaf, options.season) ? static_cast<std::size_t>(single_leaves(look.leaf)) + 1 : 0;
   return static_cast<std::size_t>(wood) +
          cards_wanted(options.foliage, sites) * triangles_per_site(foliage, options.foliage);
 }

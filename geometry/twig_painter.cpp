@@ -186,6 +186,8 @@ class Painter {
     } else if (season_ == Season::summer) {
       edge = glm::mix(edge, albedo(leaf_.spring), 0.10f);
     }
+    // A leaf alone stands for those that show either side.
+    if (at.flat) upper = glm::mix(upper, dress_.under, leaf_.underside_share);
     pose.colour = (at.under ? dress_.under * glm::mix(Vec3(1.0f), hue, 0.3f) : upper * hue) * bright;
     pose.edge = (at.under ? 0.95f * dress_.under : edge * hue) * bright;
     pose.vein = at.under ? pose.colour * 1.25f : glm::mix(pose.colour * 1.6f, dress_.under, 0.35f);

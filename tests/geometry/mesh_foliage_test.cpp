@@ -109,7 +109,7 @@ TEST(Foliage, ALeafedTwigShowsItsLeavesAtTheSamePlace) {
   const Dressed tree(test_skeleton({.seasons = 6}, 5));
   const auto twigs = leaf_sites(tree.input, FoliageLevel::clusters);
   const auto leaves = leaf_sites(tree.input, FoliageLevel::leaves);
-  const auto per_twig = static_cast<std::size_t>(tree.look.leaf.cluster_leaves) + 1;
+  const auto per_twig = static_cast<std::size_t>(single_leaves(tree.look.leaf)) + 1;
   ASSERT_EQ(leaves.size(), twigs.size() * per_twig);
   for (std::size_t k = 0; k < twigs.size(); ++k)
     for (std::size_t j = 0; j < per_twig; ++j) {
@@ -227,6 +227,51 @@ TEST(Foliage, CardsShowOneCellOfTheAtlas) {
     }
     EXPECT_TRUE(left || right);
   }
+}
+
+/// Share of the cards that show the first column of the atlas.
+double in_bloom(const TriangleMesh& m) {
+  std::size_t first = 0;
+  for (std::size_t t = 0; t < m.triangles(); ++t) first += m.uvs[m.indices[3 * t]].x < 0.5f;
+  return m.empty() ? 0.0 : static_cast<double>(first) / static_cast<double>(m.triangles());
+}
+
+TEST(Foliage, TwigsBloomInTheirSeasonByShareAndLight) {
+  Dressed tree(test_skeleton({}, 8));
+  Bloom& flower = tree.look.leaf.flower;
+  flower.form = BloomForm::corymb;
+  std::fill(tree.skeleton.light.begin(), tree.skeleton.light.end(), 0.3f);  // evenly lit: the crown's brightest is all
+  for (const float share : {0.0f, 0.3f, 0.8f}) {
+    flower.share = share;
+    tree.input.season = Season::spring;
+    const TriangleMesh m = tree.mesh(FoliageLevel::clusters);
+    const double n = static_cast<double>(m.triangles()) / 4.0;
+    EXPECT_NEAR(in_bloom(m), static_cast<double>(share), 4.0 * std::sqrt(0.25 / n)) << "four standard errors";
+  }
+  // Three quarters are darker: their L is at most 0.75, and where L^2 is below 1 - share nothing blooms.
+  flower.share = 0.35f;
+  std::vector<float>& light = tree.skeleton.light;
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] = i % 4 == 0 ? 1.0f : 0.6f;
+  std::size_t bright = 0;
+  const auto sites = leaf_sites(tree.input, FoliageLevel::leaves);
+  for (const LeafSite& site : sites) {
+    if (!site.is_bunch()) continue;
+    EXPECT_EQ(light[site.internode], 1.0f);
+    ++bright;
+  }
+  EXPECT_GT(bright, 20u);
+  EXPECT_EQ(bright % static_cast<std::size_t>(flower.bunches), 0u) << "twigs bloom as a whole";
+}
+
+TEST(Foliage, ABloomIsSeenFromItsFirstToItsLastSeasonRoundTheYear) {
+  Bloom bloom;
+  EXPECT_FALSE(bloom.shows(Season::spring)) << "none";
+  bloom.form = BloomForm::cones, bloom.from = Season::autumn, bloom.to = Season::spring;
+  EXPECT_TRUE(bloom.shows(Season::autumn) && bloom.shows(Season::bare) && bloom.shows(Season::spring));
+  EXPECT_FALSE(bloom.shows(Season::summer));
+  bloom.from = Season::summer, bloom.to = Season::autumn;
+  EXPECT_TRUE(bloom.shows(Season::summer) && bloom.shows(Season::autumn));
+  EXPECT_FALSE(bloom.shows(Season::spring) || bloom.shows(Season::bare));
 }
 
 TEST(Foliage, WeakBranchesAreYellower) {

@@ -99,9 +99,9 @@ TEST_P(Atlas, CoversASensibleShareOfEachCell) {
     if (has_leaves(leaf, season)) {
       EXPECT_GT(cluster, 0.12f);  // the airiest, willow whips, about a seventh
       EXPECT_LT(cluster, 0.65f);
-      if (leaf.outline == LeafOutline::needle_spray) {
-        // A shoot not quite two needles wide in a cell of five and a half, half of it needles.
-        EXPECT_GT(single, 0.10f);
+      if (is_needle(leaf.outline)) {
+        // A shoot not quite two needles wide in a cell of five and a half, half of it needles; cords are thinner.
+        EXPECT_GT(single, leaf.outline == LeafOutline::scale_cord ? 0.03f : 0.10f);
         EXPECT_LT(single, 0.30f);
         continue;
       }
@@ -238,6 +238,49 @@ TEST(LeafBlade, OakHasLobesBirchATailAndBothEndAtTheTip) {
     EXPECT_LT(blade->distance(0.0f, -0.01f), 0.0f);
     EXPECT_GT(blade->distance(0.0f, 0.5f), 0.1f);
   }
+}
+
+TEST(LeafAtlas, EveryBloomPaintsInsideItsCellInItsOwnColour) {
+  for (std::size_t form = 1; form < kBloomFormNames.size(); ++form) {
+    LeafLook leaf;
+    leaf.flower.form = static_cast<BloomForm>(form);
+    leaf.flower.from = leaf.flower.to = Season::summer;
+    leaf.flower.colour = leaf.flower.heart = srgb(0xD02020);
+    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 3, kSize);
+    EXPECT_GT(coverage(atlas, leaf_cell(0)), 0.02f) << kBloomFormNames[form];
+    const Vec3 bunch = colour(atlas, leaf_cell(0)), twig = colour(atlas, cluster_cell(0)),
+               plain = colour(atlas, cluster_cell(1));
+    EXPECT_GT(bunch.r, 1.5f * bunch.g) << kBloomFormNames[form];
+    EXPECT_GT(twig.r / twig.g, 1.03f * plain.r / plain.g) << kBloomFormNames[form];
+  }
+}
+
+TEST(LeafBlade, PalmateBladesHaveTheirLobesHeartsANotchAndCompoundOnesGaps) {
+  // Around the place where the main veins meet, how often the radius has a peak.
+  const auto inside = [](const LeafBlade& blade, float angle_deg, float r) {
+    const SinCos a = sin_cos(radians(angle_deg));
+    return blade.distance(r * a.sin, 0.2f + r * a.cos) > 0.0f;
+  };
+  const LeafBlade plane(species_look("london_plane").leaf, 1, 1);
+  int lobes = 0;
+  for (int k = -180; k < 180; ++k)
+    lobes += inside(plane, static_cast<float>(k), 0.55f) && !inside(plane, static_cast<float>(k - 1), 0.55f);
+  EXPECT_GE(lobes, 3);
+  EXPECT_LE(lobes, 7);
+  const LeafBlade lime(species_look("small_leaved_lime").leaf, 1, 1);
+  EXPECT_GT(lime.foot(), 0.02f);
+  EXPECT_LT(lime.distance(0.0f, 0.3f * lime.foot()), 0.0f) << "the notch";
+  EXPECT_GT(lime.distance(0.15f, 0.3f * lime.foot() + 0.06f), 0.0f) << "beside it an ear";
+  // Along a line beside a rowan's stalk leaflet follows gap.
+  const LeafBlade rowan(species_look("rowan").leaf, 1, 1);
+  int leaflets = 0;
+  bool was = false;
+  for (int k = 0; k <= 1000; ++k) {
+    const bool now = rowan.distance(0.19f, 0.001f * static_cast<float>(k)) > 0.0f;
+    leaflets += now && !was, was = now;
+  }
+  EXPECT_GE(leaflets, 4);
+  EXPECT_LE(leaflets, 7);
 }
 
 TEST(LeafAtlas, EveryOutlineFamilyAndTwigFormPaints) {
