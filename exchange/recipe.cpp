@@ -210,6 +210,15 @@ class Reader {
           table.error("", "a fill needs either count or density_per_ha");
         break;
       }
+      case PlantingKind::thinning:
+        describe(planting.thinning, table);
+        read_area(table, planting);
+        if (const double seedlings =
+                seedlings_in_all(planting.area.value_or(Box2{Vec2(0.0f), recipe_.size_m}), planting.thinning);
+            seedlings > distribution::kMostSeedlings)
+          table.error("seedlings_per_ha", fmt::format("the area would get {:.0f} seedlings in all; {:.0f} are allowed",
+                                                      seedlings, distribution::kMostSeedlings));
+        break;
       case PlantingKind::brush:
         describe(planting.brush, table);
         planting.line = required_points(table, "points");

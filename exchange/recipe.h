@@ -24,6 +24,7 @@
 #include "distribution/region.h"
 #include "distribution/rows.h"
 #include "distribution/sowing.h"
+#include "distribution/thinning.h"
 #include "exchange/inventory.h"
 #include "exchange/tree_file.h"
 #include "scene/document.h"
@@ -50,9 +51,9 @@ struct GroundRecipe {
   std::vector<PathArea> paths;
 };
 
-enum class PlantingKind { fill, brush, row, grid, hedge, single, inventory };
-inline constexpr std::array<std::string_view, 7> kPlantingKindNames{"fill",  "brush",  "row",      "grid",
-                                                                    "hedge", "single", "inventory"};
+enum class PlantingKind { fill, thinning, brush, row, grid, hedge, single, inventory };
+inline constexpr std::array<std::string_view, 8> kPlantingKindNames{"fill", "thinning", "brush",  "row",
+                                                                    "grid", "hedge",    "single", "inventory"};
 
 /// What is ordered of a block's trees beside their species and size.
 struct TreeOrder {
@@ -78,6 +79,7 @@ struct PlantingRecipe {
   std::optional<distribution::Region> area;  ///< missing: the whole site
   std::optional<std::size_t> count;
   std::optional<float> per_hectare;
+  distribution::ThinningRules thinning;
   std::vector<Vec2> line;  ///< of rows, hedges and brush strokes
   distribution::RowRules row;
   distribution::GridRules grid;

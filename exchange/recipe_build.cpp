@@ -192,6 +192,9 @@ class Planter {
         take(block, distribution::sow(planting_, what, area, count, progress_));
         break;
       }
+      case PlantingKind::thinning:
+        take(block, distribution::fill_by_thinning(planting_, what, area, block.thinning, statures(), progress_));
+        break;
       case PlantingKind::brush:
         take(block, distribution::sow_stroke(planting_, what, block.brush,
                                              distribution::steady_stroke(block.line, block.seconds), progress_));
@@ -283,6 +286,23 @@ class Planter {
     if (sown.no_room)
       warnings_.push_back(fmt::format("planting '{}': room for only {} of {} trees; the rest was left out", block.name,
                                       sown.trees.size(), sown.asked));
+  }
+
+  void take(const PlantingRecipe& block, const distribution::Thinned& thinned) {
+    for (const StandingTree& tree : thinned.trees) add(tree);
+    if (thinned.trees.empty() && thinned.seedlings == 0)
+      warnings_.push_back(fmt::format("planting '{}': no seedling found ground to grow on", block.name));
+    else if (thinned.trees.empty())
+      warnings_.push_back(fmt::format("planting '{}': none of {} seedlings reached least_scale = {:g} in {} years",
+                                      block.name, thinned.seedlings, block.thinning.least_scale, block.thinning.years));
+  }
+
+  // How self-thinning sees the species: with their crowns in the open, growing as their heights do.
+  std::vector<distribution::Stature> statures() const {
+    std::vector<distribution::Stature> out;
+    for (const auto& s : recipe_.document.species)
+      out.push_back({0.5f * s->shape.crown_width_m, s->growth.age_rate_per_year, s->growth.age_shape});
+    return out;
   }
 
   void take(const PlantingRecipe& block, const distribution::Planted& planted) {

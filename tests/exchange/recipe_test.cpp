@@ -191,6 +191,26 @@ TEST(Recipe, MistakesInClippedFormsAreNamed) {
   says("clear_stem_m = -1\n", "clear_stem_m");
 }
 
+TEST(Recipe, SelfThinningFillsAnAreaWithTreesOfManySizes) {
+  const BuiltRecipe wood = build(
+      "[[planting]]\nkind = 'thinning'\nspecies = { english_oak = 1, silver_birch = 2 }\nyears = 80\n"
+      "regeneration_per_ha = 200\n");
+  ASSERT_GT(wood.document.trees->size(), 10u);
+  float least = 9, most = 0;
+  for (const scene::Tree& tree : *wood.document.trees)
+    least = std::min(least, tree.scale_height), most = std::max(most, tree.scale_height);
+  EXPECT_LT(least, 0.5f * most);
+  EXPECT_GE(least, 0.1f);
+  const BuiltRecipe young = build(
+      "[[planting]]\nkind = 'thinning'\nspecies = { english_oak = 1 }\nyears = 1\n"
+      "[[planting]]\nkind = 'single'\nspecies = { english_oak = 1 }\nat = [20, 20]\n");
+  ASSERT_FALSE(young.warnings.empty());
+  EXPECT_NE(young.warnings[0].find("reached least_scale = 0.1 in 1 years"), std::string::npos) << young.warnings[0];
+  EXPECT_NE(mistake_in("[[planting]]\nkind = 'thinning'\nspecies = { english_oak = 1 }\nseedlings_per_ha = -1\n")
+                .find("seedlings_per_ha"),
+            std::string::npos);
+}
+
 // docs/recipe.md shows every described key with its unit, range, default and meaning, word for word.
 TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   std::ifstream in(std::string(BOSQUET_SOURCE_DIR) + "/docs/recipe.md");
@@ -202,6 +222,7 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(terrain::Stroke{});
   add(distribution::Interaction{});
   add(TreeOrder{});
+  add(distribution::ThinningRules{});
   add(distribution::PlantBrush{});
   add(distribution::RowRules{});
   add(distribution::GridRules{});
