@@ -172,15 +172,19 @@ TEST(RecipeObstacle, TreesInsideAndObstaclesOffTheSiteAreWarnedAbout) {
   EXPECT_LT(grown->trees[0].measures.crown_diameter_m, grown->trees[1].measures.crown_diameter_m);
 }
 
-TEST(RecipeObstacle, NothingIsSownIntoBuildings) {
+TEST(RecipeObstacle, NothingIsSownIntoBuildingsOrUnderMeshes) {
   const ScratchFolder folder;
-  const auto built = build(folder,
-                           "[[obstacle]]\npolygon = [[10, 5], [50, 5], [50, 35], [10, 35]]\n"
-                           "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 60\nscale = [0.1, 0.2]\n");
-  ASSERT_TRUE(built) << built.error().message;
-  EXPECT_EQ(built->document.trees->size(), 60u);
-  for (const scene::Tree& tree : *built->document.trees)
-    EXPECT_FALSE(tree.at.x > 10.6f && tree.at.x < 49.4f && tree.at.y > 5.6f && tree.at.y < 34.4f);
+  write(folder, "box.obj", kBox);
+  const std::string birches = "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 60\nscale = [0.1, 0.2]\n";
+  for (const char* house : {"[[obstacle]]\npolygon = [[10, 5], [50, 5], [50, 35], [10, 35]]\n",
+                            "[[obstacle]]\nfile = 'box.obj'\nat = [10, 5]\nscale = 5\n"}) {  // 20 x 30 m
+    const bool mesh = std::string(house).find("obj") != std::string::npos;
+    const Box2 inside{{10, 5}, {mesh ? 30.0f : 50.0f, 35}};
+    const auto built = build(folder, house + birches);
+    ASSERT_TRUE(built) << built.error().message;
+    EXPECT_EQ(built->document.trees->size(), 60u);
+    for (const scene::Tree& tree : *built->document.trees) EXPECT_FALSE(inside.contains(tree.at)) << house;
+  }
 }
 
 TEST(RecipeObstacle, MistakesAreToldBeforeAnyWork) {
