@@ -127,6 +127,8 @@ Result<Planting> Planting::make(Terrain terrain, std::vector<Species> species,
   p.cells_ = {cells(size.x), cells(size.y)};
   p.index_ = TreeIndex(size, std::max(kBucket_m, longest / kMostBuckets));
   p.heights_ = p.terrain_.height.range();
+  p.some_excluded_ = !everywhere(p.terrain_.exclusion, 0);
+  p.some_thinned_ = !everywhere(p.terrain_.density, 255);
   p.steepest_ = steepest(p.terrain_.height);
   p.fields_.resize(count);
   return p;
@@ -252,10 +254,9 @@ std::vector<std::uint8_t> Planting::suitability(std::uint32_t species) const {
   const bool low = heights_.low<rules.min_altitude_m, high = heights_.high> rules.max_altitude_m;
   const float rise = steepest_allowed_[species];
   const bool steep = steepest_ > rise;
-  const bool exclusions = !everywhere(terrain_.exclusion, 0), thinned = !everywhere(terrain_.density, 255);
 
   const bool last_on_site = terrain::on_site(terrain_, (Vec2(cells_) - 0.5f) * cell_m_);
-  const bool barred = !barriers_.empty();
+  const bool exclusions = some_excluded_, thinned = some_thinned_, barred = !barriers_.empty();
   if (last_on_site && !water && !low && !high && !steep && !exclusions && !thinned && !barred) return {};
 
   const auto width = static_cast<std::size_t>(cells_.x);

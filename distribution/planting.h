@@ -92,6 +92,7 @@ class Planting {
   float cell_m_ = 1.0f;
   IVec2 cells_{0};
   terrain::HeightRange heights_;
+  bool some_excluded_ = false, some_thinned_ = false;      // anywhere on the site
   float steepest_ = 0.0f;                                  // no ground rises more per metre
   float widest_spacing_m_ = 0.0f, widest_trunk_m_ = 0.0f;  // of the trees ever added
   std::vector<StandingTree> trees_;
