@@ -155,10 +155,11 @@ ParsedLine parse_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
   app.require_subcommand(0, 1);
 
-  CLI::App* make =
-      app.add_subcommand("make", "Grows the scene of a recipe and writes it: .glb .gltf .png .csv .vdb .tree.json");
+  CLI::App* make = app.add_subcommand("make",
+                                      "Grows the scene of a recipe and writes it: .glb .gltf .png .plan.png .svg .dxf .csv .species.csv "
+                                      ".gpkg .geojson .shp .vdb .tree.json .bosquet .toml");
   make->alias("export");
-  make->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  make->add_option("recipe", o.file, "Recipe (.toml) or project (.bosquet)")->required()->option_text("FILE");
   make->add_option("-o,--output", o.outputs, "Output; may be given several times")
       ->required()
       ->allow_extra_args(false)
@@ -170,7 +171,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   make->callback([&] { o.command = Command::make; });
 
   CLI::App* render = app.add_subcommand("render", "Grows the scene of a recipe and draws a picture of it");
-  render->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  render->add_option("file", o.file, "Recipe (.toml) or project (.bosquet)")->required()->option_text("FILE");
   render->add_option("-o,--output", o.outputs, "Picture (.png)")->required()->expected(1)->option_text("OUT.png");
   render->add_option("--view", o.view, "trees, shapes, regions, arrows or plan")
       ->transform(one_of(std::map<std::string, ViewKind>{{"trees", ViewKind::trees},
@@ -188,17 +189,31 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App* info = app.add_subcommand("info", "Says what is in a glTF file or a recipe");
   info->add_option("file", o.file, ".glb, .gltf or recipe")->required()->option_text("FILE");
   info->add_flag("--json", o.json, "As JSON");
-  info->add_flag("--check", o.check, "Judges a glTF file: bounds, instances, levels, packed data; exit status 1 if bad");
+  info->add_flag("--check", o.check,
+                 "Judges a glTF file: bounds, instances, levels, packed data; exit status 1 if bad");
   info->callback([&] { o.command = Command::info; });
 
-  CLI::App* add = app.add_subcommand("import", "Adds ground or trees to a recipe, which is made when missing");
-  add->add_option("recipe", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  CLI::App* add = app.add_subcommand("import", "Adds ground, trees or obstacles to a project or recipe, which is made when missing");
+  add->add_option("project", o.file, "Project (.bosquet) or recipe (.toml)")->required()->option_text("PROJECT");
   add->add_option("--dem", o.dem, "Elevation raster (GeoTIFF, PNG, ...)")->option_text("FILE");
-  add->add_option("--trees", o.inventory, "Tree inventory (.csv)")->option_text("FILE");
+  add->add_option("--trees", o.inventory, "Tree inventory (.csv .geojson .gpkg .shp .dxf)")->option_text("FILE");
+  add->add_option("--obstacle", o.obstacle, "Into a project: mesh (.glb .gltf .obj) or outlines (.geojson .gpkg .shp)")
+      ->option_text("FILE");
   add->callback([&] { o.command = Command::import_data; });
 
+  CLI::App* recover = app.add_subcommand("recover", "Lists what sessions left that ended without saving, and saves it");
+  recover->add_option("name", o.recovery, "list (the default), or a name of the list")->option_text("list|NAME");
+  recover->add_option("-o,--output", o.outputs, "Project to save it as (.bosquet)")->expected(1)->option_text("FILE");
+  add_quiet(recover, o);
+  recover->callback([&, recover] {
+    const bool list = o.recovery.empty() || o.recovery == "list";
+    if (list == !o.outputs.empty())
+      throw CLI::ValidationError("recover", list ? "-o needs the NAME of what is to be recovered" : "NAME needs -o FILE");
+    o.command = list ? Command::recover_list : Command::recover;
+  });
+
   CLI::App* stats = app.add_subcommand("stats", "Grows a recipe and measures the pattern of bases and crown centroids");
-  stats->add_option("file", o.file, "Recipe (.toml)")->required()->option_text("RECIPE.toml");
+  stats->add_option("file", o.file, "Recipe (.toml) or project (.bosquet)")->required()->option_text("FILE");
   stats->add_flag("--json", o.json, "As JSON");
   add_growth(stats, o), add_common(stats, o);
   stats->callback([&] { o.command = Command::stats; });

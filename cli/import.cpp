@@ -10,6 +10,8 @@
 #include "exchange/file_output.h"
 #include "exchange/inventory.h"
 #include "exchange/recipe.h"
+#include "exchange/reference_system.h"
+#include "exchange/tree_import.h"
 
 namespace bosquet::cli {
 namespace {
@@ -17,9 +19,6 @@ namespace {
 using std::filesystem::path;
 
 constexpr std::uint64_t kMostRecipeBytes = 64 << 20;
-
-// Coordinates that start this near to 0, as a share of their extent, are a plot's own and keep their origin.
-constexpr double kOwnOrigin = 0.1;
 
 struct Extent {
   DVec2 south_west{0.0}, size{0.0};
@@ -43,13 +42,8 @@ std::string toml_text(const std::string& text) {
 
 Result<Extent> extent_of_trees(const exchange::Inventory& inventory, const path& file) {
   if (inventory.trees.empty()) return Error{fmt::format("{}: no row has a usable position", file.string())};
-  DVec2 low(INFINITY), high(-INFINITY);
-  for (const exchange::InventoryTree& tree : inventory.trees)
-    low = glm::min(low, tree.plan), high = glm::max(high, tree.plan);
-  const DVec2 extent = high - low;
-  DVec2 corner = glm::floor(low);
-  if (low.x >= 0 && low.y >= 0 && low.x <= kOwnOrigin * extent.x && low.y <= kOwnOrigin * extent.y) corner = DVec2(0.0);
-  return Extent{corner, glm::max(glm::ceil(high - corner), DVec2(1.0))};
+  const auto [corner, size] = exchange::site_around(inventory.trees);
+  return Extent{corner, size};
 }
 
 // Puts `lines` right under the header of a table, or makes the table at the end.
@@ -76,6 +70,8 @@ Result<std::string> old_text(const path& recipe) {
 }  // namespace
 
 Result<void> run_import(const Options& options) {
+  if (options.file.extension() == ".bosquet") return import_into_project(options);
+  if (!options.obstacle.empty()) return Error{"--obstacle is for projects (.bosquet); a recipe has [[obstacle]]"};
   if (options.file.extension() != ".toml")
     return Error{fmt::format("{}: import adds to a recipe, a .toml file", options.file.string())};
   if (options.dem.empty() && options.inventory.empty()) return Error{"import needs --dem FILE, --trees FILE or both"};
@@ -86,6 +82,7 @@ Result<void> run_import(const Options& options) {
   if (!fresh && text->back() != '\n') *text += '\n';
 
   std::optional<Extent> site;
+  scene::Georeference georeference;
   std::set<std::string> names;  // of the plantings
   if (!fresh) {
     auto recipe = exchange::parse_recipe(*text, options.file);
@@ -94,43 +91,55 @@ Result<void> run_import(const Options& options) {
       return Error{fmt::format("{}: has the ground {} already; change its key dem by hand", options.file.string(),
                                recipe->ground.dem.string())};
     for (const exchange::PlantingRecipe& planting : recipe->plantings) names.insert(planting.name);
-    site = Extent{recipe->ground.dem_corner_given ? recipe->ground.dem_south_west : recipe->document.place.south_west,
-                  DVec2(recipe->size_m)};
+    georeference = recipe->document.place;
+    if (recipe->size_m != Vec2(0.0f))  // else the site's size comes with its elevation or boundary
+      site = Extent{recipe->ground.dem_corner_given ? recipe->ground.dem_south_west : recipe->document.place.south_west,
+                    DVec2(recipe->size_m)};
   }
 
   std::string ground;
   if (!options.dem.empty()) {
     auto raster = exchange::read_elevation(options.dem);
     if (!raster) return raster.error();
+    if (georeference.crs_wkt.empty()) georeference.crs_wkt = raster->crs_wkt;
     if (!site) site = Extent{raster->low_corner(), raster->high_corner() - raster->low_corner()};
     ground = fmt::format("dem = {}\ndem_south_west = [{}, {}]\n", toml_text(path_from(options.file, options.dem)),
                          site->south_west.x, site->south_west.y);
     fmt::print("{}: {} x {} cells of {:g} m\n", options.dem.string(), raster->columns, raster->rows, raster->cell_x_m);
   }
 
-  std::string trees;
+  std::string trees, crs;
   if (!options.inventory.empty()) {
     exchange::InventoryOptions reading;
-    if (site) reading.south_west = site->south_west, reading.size_m = site->size;
+    if (site) {
+      reading.site = georeference;
+      reading.site.south_west = site->south_west;
+      reading.size_m = site->size;
+    }
     auto inventory = exchange::read_inventory(options.inventory, reading);
     if (!inventory) return inventory.error();
-    print_warnings(exchange::problem_lines(inventory->problems, options.inventory.string()), options.quiet);
+    print_warnings(exchange::problem_lines(inventory->problems, options.inventory.string(), inventory->features),
+                   options.quiet);
     if (!site) {
       auto extent = extent_of_trees(*inventory, options.inventory);
       if (!extent) return extent.error();
       site = *extent;
+      // The trees' own system becomes the site's, so that they are found again.
+      if (inventory->place)
+        crs = fmt::format("crs = {}\nlatitude_deg = {:.4f}\nlongitude_deg = {:.4f}\n",
+                          toml_text(exchange::short_definition(inventory->place->crs_wkt)),
+                          inventory->place->latitude_deg, inventory->place->longitude_deg);
     }
     std::string name = options.inventory.stem().string();
     for (int n = 2; names.contains(name); ++n) name = fmt::format("{} {}", options.inventory.stem().string(), n);
-    trees = fmt::format("\n[[planting]]\nname = {}\nkind = \"inventory\"\nfile = {}\nsouth_west = [{}, {}]\n",
-                        toml_text(name), toml_text(path_from(options.file, options.inventory)), site->south_west.x,
-                        site->south_west.y);
+    trees = fmt::format("\n[[planting]]\nname = {}\nkind = \"inventory\"\nfile = {}\n", toml_text(name),
+                        toml_text(path_from(options.file, options.inventory)));
     fmt::print("{}: {} trees\n", options.inventory.string(), inventory->trees.size());
   }
 
   if (fresh)
-    *text = fmt::format("[site]\nsize_m = [{}, {}]\nseed = 1\nsouth_west = [{}, {}]\n", site->size.x, site->size.y,
-                        site->south_west.x, site->south_west.y);
+    *text = fmt::format("[site]\nsize_m = [{}, {}]\nseed = 1\nsouth_west = [{}, {}]\n{}", site->size.x, site->size.y,
+                        site->south_west.x, site->south_west.y, crs);
   if (!ground.empty()) *text = with_table_lines(std::move(*text), "[terrain]", ground);
   *text += trees;
   if (auto fine = exchange::parse_recipe(*text, options.file); !fine) return fine.error();

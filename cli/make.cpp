@@ -14,9 +14,13 @@
 #include "crowns/vdb.h"
 #include "exchange/file_output.h"
 #include "exchange/gltf_writer.h"
+#include "exchange/plan_drawing.h"
+#include "exchange/recipe_write.h"
 #include "exchange/schedule.h"
 #include "exchange/tree_file.h"
+#include "exchange/vector_writer.h"
 #include "scene/model_builder.h"
+#include "scene/project_file.h"
 
 namespace bosquet::cli {
 namespace {
@@ -29,6 +33,8 @@ struct Made {
   const scene::BuiltModel& built;
   const Options& options;
   Progress& progress;
+  std::map<std::string, std::vector<std::string>>& required;  ///< extensions, by output
+  std::vector<std::string>& warnings;
 };
 using Writer = Result<std::uint64_t> (*)(const Made&, const path&);
 
@@ -49,6 +55,7 @@ Result<std::uint64_t> write_model(const Made& made, const path& target) {
   options.lod = made.options.lod;
   auto written = exchange::write_gltf(made.built.model, target, options);
   if (!written) return written.error();
+  if (!written->required_extensions.empty()) made.required[target.string()] = written->required_extensions;
   return written->bytes;
 }
 
@@ -59,18 +66,29 @@ Result<std::uint64_t> write_png(const Made& made, const path& target) {
   return size_of(target);
 }
 
+// x.csv lists the trees, x.species.csv sums them up.
+Result<std::uint64_t> write_plan(const Made& made, const path& target) {
+  auto plan = exchange::draw_plan(made.grown, made.options.file.stem().string());
+  if (!plan) return Error{fmt::format("{}: {}", target.string(), plan.error().message)};
+  const std::string ending = exchange::lower_ending(target);
+  if (ending == ".svg") return exchange::write_plan_svg(*plan, target);
+  if (ending == ".dxf") return exchange::write_plan_dxf(*plan, target);
+  return exchange::write_plan_png(*plan, target);
+}
+
 Result<std::uint64_t> write_csv(const Made& made, const path& target) {
-  std::vector<exchange::ScheduleRow> rows;
+  const auto records = exchange::tree_records(made.grown);
+  if (target.stem().extension() == ".species") return exchange::write_summary(target, exchange::summarise(records));
+  return exchange::write_schedule(target, records);
+}
+
+Result<std::uint64_t> write_map(const Made& made, const path& target) {
   const scene::Document& document = made.grown.document;
-  for (std::size_t i = 0; i < made.grown.trees.size(); ++i) {
-    const scene::Tree& tree = (*document.trees)[i];
-    const scene::Species& species = document.species_of(tree);
-    const growth::Measures& m = made.grown.trees[i].measures;
-    rows.push_back({static_cast<std::uint64_t>(tree.id),
-                    species.common_names.empty() ? species.name : species.common_names.front(), species.botanical_name,
-                    DVec2(tree.at), m.height_m, m.trunk_diameter_m, m.crown_diameter_m, tree.inventory_name});
-  }
-  return exchange::write_schedule(target, rows);
+  auto written = exchange::write_trees(target, exchange::tree_records(made.grown), document.place,
+                                       DVec2(document.terrain->size_m()));
+  if (!written) return written.error();
+  made.warnings.insert(made.warnings.end(), written->warnings.begin(), written->warnings.end());
+  return written->bytes;
 }
 
 Result<std::uint64_t> write_voxels(const Made& made, const path& target) {
@@ -97,17 +115,31 @@ Result<std::uint64_t> write_one_tree(const Made& made, const path& target) {
                            made.grown.trees.size())};
 }
 
+Result<std::uint64_t> write_project_file(const Made& made, const path& target) {
+  return scene::write_project(made.grown.document, target);
+}
+
+Result<std::uint64_t> write_recipe_files(const Made& made, const path& target) {
+  auto written = exchange::write_recipe(made.grown.document, target);
+  if (!written) return written.error();
+  made.warnings.insert(made.warnings.end(), written->warnings.begin(), written->warnings.end());
+  return written->bytes;
+}
+
 struct Format {
   std::string_view ending;
   Writer write;
   bool model;  ///< needs meshes
 };
-constexpr Format kFormats[] = {{".glb", write_model, true},   {".gltf", write_model, true},
-                               {".png", write_png, true},     {".csv", write_csv, false},
-                               {".vdb", write_voxels, false}, {".json", write_one_tree, false}};
+constexpr Format kFormats[] = {
+    {".glb", write_model, true}, {".gltf", write_model, true},  {".plan.png", write_plan, false}, {".svg", write_plan, false}, {".dxf", write_plan, false}, {".png", write_png, true},
+    {".csv", write_csv, false},  {".gpkg", write_map, false},   {".geojson", write_map, false},
+    {".shp", write_map, false},  {".vdb", write_voxels, false}, {".json", write_one_tree, false},
+    {".bosquet", write_project_file, false}, {".toml", write_recipe_files, false}};
 
 const Format* format_of(const path& target) {
-  const std::string ending = exchange::lower_ending(target);
+  std::string ending = exchange::lower_ending(target);
+  if (ending == ".png" && exchange::lower_ending(target.stem()) == ".plan") ending = ".plan.png";  // a sheet
   const auto found =
       std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.ending == ending; });
   return found == std::end(kFormats) ? nullptr : found;
@@ -133,9 +165,9 @@ Result<void> check_targets(const Options& options, bool picture_only) {
   std::set<path> seen;
   for (const path& target : options.outputs) {
     if (picture_only ? target.extension() != ".png" : !format_of(target))
-      return Error{fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(),
-                               target.extension().string(),
-                               picture_only ? ".png" : ".glb .gltf .png .csv .vdb .tree.json")};
+      return Error{
+          fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(), target.extension().string(),
+                      picture_only ? ".png" : ".glb .gltf .png .plan.png .svg .dxf .csv .species.csv .gpkg .geojson .shp .vdb .tree.json .bosquet .toml")};
     if (const bool tree = target.extension() == ".json";
         tree && (!options.tree || target.stem().extension() != ".tree"))
       return Error{fmt::format("{}: a tree is saved with --tree ID as NAME.tree.json", target.string())};
@@ -164,6 +196,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
   } else if (grows_meshes(options)) {
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
+    model.levels = options.lod != exchange::LodFiles::none;
     auto meshes = scene::build_model(*grown, model, &progress);
     if (!meshes) return meshes.error();
     built = std::move(*meshes);
@@ -173,7 +206,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
   report.seconds.insert(built.seconds.begin(), built.seconds.end());
 
   Stopwatch exporting;
-  const Made made{*grown, built, options, progress};
+  const Made made{*grown, built, options, progress, report.required_extensions, report.warnings};
   for (const path& target : options.outputs) {
     if (progress.cancelled()) return cannot_finish(fmt::format("cancelled; {} was not written", target.string()));
     auto bytes = format_of(target)->write(made, target);
@@ -207,7 +240,13 @@ Result<void> make_and_report(const Options& options) {
   if (!options.quiet) {
     fmt::print("{} trees, {} internodes, {} triangles in {:.1f} s\n", report.trees, report.internodes, report.triangles,
                report.seconds["total"]);
-    for (const auto& [output, bytes] : report.bytes) fmt::print("{}  {}\n", output, readable_bytes(bytes));
+    for (const auto& [output, bytes] : report.bytes) {
+      const auto required = report.required_extensions.find(output);
+      fmt::print("{}  {}{}\n", output, readable_bytes(bytes),
+                 required == report.required_extensions.end()
+                     ? ""
+                     : fmt::format("; opens only in programs that know {}", fmt::join(required->second, ", ")));
+    }
   }
   return {};
 }

@@ -14,6 +14,7 @@ bool CsvReader::next(std::vector<std::string>& fields) {
     std::size_t n = 0;
     bool any = false;
     row_line_ = line_;
+    unclosed_ = false;
     // Strings are kept from row to row: a hundred thousand rows then need a handful of allocations.
     for (bool more = true; more;) {
       if (n == fields.size()) fields.emplace_back();
@@ -35,25 +36,36 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   return false;
 }
 
+// From an opening quote to behind its closing one; false, and nothing read, when it is not closed.
+bool CsvReader::read_quoted(std::string& field) {
+  const std::size_t limit = std::min(text_.size(), at_ + kLongestField);
+  int breaks = 0;
+  for (std::size_t i = at_ + 1; i < limit; ++i) {
+    const char c = text_[i];
+    if (c == '"' && (i + 1 >= text_.size() || text_[i + 1] != '"')) {
+      // What stands behind it in its line.
+      std::size_t next = i + 1;
+      while (next < text_.size() && blank(text_[next]) && text_[next] != separator_) ++next;
+      const bool clean =
+          next >= text_.size() || text_[next] == separator_ || text_[next] == '\n' || text_[next] == '\r';
+      if (breaks > 0 && !clean) break;
+      at_ = i + 1, line_ += breaks;
+      return true;
+    }
+    if (c == '"') ++i;
+    if (c == '\n' || (c == '\r' && (i + 1 >= text_.size() || text_[i + 1] != '\n'))) ++breaks;
+    field += c;
+  }
+  field.clear();
+  return false;
+}
+
 void CsvReader::read_field(std::string& field) {
   field.clear();
   while (at_ < text_.size() && blank(text_[at_]) && text_[at_] != separator_) ++at_;
-  if (at_ < text_.size() && text_[at_] == '"') {
-    for (++at_; at_ < text_.size(); ++at_) {
-      const char c = text_[at_];
-      if (c == '"') {
-        if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
-        ++at_;
-      } else if (c == '\n') {
-        ++line_;
-      }
-      field += c;
-    }
-    ++at_;  // the closing quote
-  }
+  if (at_ < text_.size() && text_[at_] == '"' && !read_quoted(field)) unclosed_ = true, ++at_;
   // An unquoted field, or whatever follows a closing quote.
-  const std::size_t begin = std::min(at_, text_.size());
-  at_ = begin;
+  const std::size_t begin = at_;
   while (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
   std::size_t end = at_;
   while (end > begin && blank(text_[end - 1])) --end;

@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <span>
+#include <utility>
 
-#include "exchange/csv.h"
+#include "core/letters.h"
 #include "exchange/file_output.h"
+#include "exchange/number_text.h"
+#include "exchange/reference_system.h"
+#include "exchange/site_frame.h"
+#include "exchange/tree_table.h"
+#include "exchange/vector_table.h"
 
 namespace bosquet::exchange {
 namespace {
@@ -18,61 +23,8 @@ namespace {
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
 
 // No tree is larger; what is beyond is a slip or another unit.
-constexpr double kTallest = 130, kThickest = 15, kWidest = 100;  // metres
+constexpr double kTallest = 130, kThickest = 15, kWidest = 100, kOldest = 5000;  // metres, years
 constexpr double kTrunkInMetres = 3.5;  // a trunk column without unit holds cm when any value is larger
-
-// --- text ---
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
-// A column's name for comparing: lower case, one underscore for each run of other signs than letters and digits.
-std::string plain(std::string_view name) {
-  std::string out;
-  for (unsigned char c : lower(name)) {
-    const bool sign = c < 128 && !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9');
-    if (!sign)
-      out += static_cast<char>(c);
-    else if (!out.empty() && out.back() != '_')
-      out += '_';
-  }
-  while (!out.empty() && out.back() == '_') out.pop_back();
-  return out;
-}
-
-bool valid_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const int follow = c < 0x80                ? 0
-                       : c >= 0xc2 && c < 0xe0 ? 1
-                       : c >= 0xe0 && c < 0xf0 ? 2
-                       : c >= 0xf0 && c < 0xf5 ? 3
-                                               : -1;
-    if (follow < 0 || i + static_cast<std::size_t>(follow) >= text.size()) return false;
-    for (int k = 1; k <= follow; ++k)
-      if ((static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]) & 0xc0) != 0x80) return false;
-    i += static_cast<std::size_t>(follow) + 1;
-  }
-  return true;
-}
-
-std::string from_latin1(std::string_view text) {
-  std::string out;
-  out.reserve(text.size() + text.size() / 16);
-  for (unsigned char c : text) {
-    if (c < 0x80) {
-      out += static_cast<char>(c);
-    } else {
-      out += static_cast<char>(0xc0 | (c >> 6));
-      out += static_cast<char>(0x80 | (c & 0x3f));
-    }
-  }
-  return out;
-}
 
 // For messages: what was found, not more than fits a line.
 std::string excerpt(const std::string& text) {
@@ -82,300 +34,341 @@ std::string excerpt(const std::string& text) {
   return '"' + text.substr(0, end) + "...\"";
 }
 
-// --- columns ---
-
-struct Unit {
-  std::string_view suffix;
-  double metres;
+struct StatusWord {
+  std::string_view word;
+  scene::TreeStatus status;
 };
-constexpr std::array kUnits{Unit{"_m", 1},         Unit{"_cm", 0.01},       Unit{"_mm", 0.001},  Unit{"_in", 0.0254},
-                            Unit{"_inch", 0.0254}, Unit{"_inches", 0.0254}, Unit{"_ft", 0.3048}, Unit{"_feet", 0.3048},
-                            Unit{"_metres", 1},    Unit{"_meters", 1}};
-
-constexpr std::array<std::string_view, 8> kEast{"x",       "east",    "easting", "e",
-                                                "x_coord", "coord_x", "utm_x",   "rechtswert"};
-constexpr std::array<std::string_view, 8> kNorth{"y",       "north",   "northing", "n",
-                                                 "y_coord", "coord_y", "utm_y",    "hochwert"};
-constexpr std::array<std::string_view, 9> kSpecies{"species",     "botanical_name", "scientific_name",
-                                                   "latin_name",  "species_name",   "tree_species",
-                                                   "common_name", "taxon",          "baumart"};
-constexpr std::array<std::string_view, 5> kHeight{"height", "tree_height", "total_height", "h", "baumhoehe"};
-constexpr std::array<std::string_view, 8> kTrunk{
-    "dbh", "diameter",        "trunk_diameter", "stem_diameter", "diam", "diameter_at_breast_height",
-    "bhd", "stammdurchmesser"};
-constexpr std::array<std::string_view, 7> kGirth{
-    "girth", "circumference", "trunk_circumference", "gbh", "trunk_girth", "stammumfang", "umfang"};
-constexpr std::array<std::string_view, 8> kCrown{"crown_diameter", "crown_width", "crown_spread",     "crown", "spread",
-                                                 "canopy_spread",  "crown_diam",  "kronendurchmesser"};
-constexpr std::array<std::string_view, 7> kId{"id", "tree_id", "treeid", "tree_no", "tag", "tree_tag", "baumnummer"};
-constexpr std::array<std::string_view, 6> kDegrees{"lon", "longitude", "lng", "long", "lat", "latitude"};
-
-struct Column {
-  int index = -1;  ///< -1: not there
-  double metres = 1;
-  bool has_unit = false;
-  bool girth = false;
-};
-
-struct Header {
-  std::vector<std::string> names, plain_names;
-};
-
-// Splits a unit off a column's name.
-std::string without_unit(const std::string& name, Column& column) {
-  for (const Unit& unit : kUnits) {
-    if (!std::string_view(name).ends_with(unit.suffix) || name.size() == unit.suffix.size()) continue;
-    column.metres = unit.metres, column.has_unit = true;
-    return name.substr(0, name.size() - unit.suffix.size());
-  }
-  return name;
-}
-
-// The first column (in the order of the usual names) that bears one of them, with or without unit.
-Column find(const Header& header, std::span<const std::string_view> usual) {
-  for (std::string_view wanted : usual)
-    for (std::size_t i = 0; i < header.names.size(); ++i) {
-      Column column;
-      if (header.plain_names[i] != wanted && without_unit(header.plain_names[i], column) != wanted) continue;
-      if (header.plain_names[i] == wanted) column = {};  // the whole name is meant, not a unit
-      column.index = static_cast<int>(i);
-      return column;
-    }
-  return {};
-}
-
-std::string list(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
-Result<Column> column_for(const Header& header, const std::string& given, std::span<const std::string_view> usual,
-                          const std::string& file, const char* what) {
-  if (given.empty()) return find(header, usual);
-  for (std::size_t i = 0; i < header.names.size(); ++i) {
-    if (header.names[i] != given && header.plain_names[i] != plain(given)) continue;
-    Column column;
-    const std::string stem = without_unit(header.plain_names[i], column);
-    column.index = static_cast<int>(i);
-    column.girth = std::find(kGirth.begin(), kGirth.end(), stem) != kGirth.end();
-    return column;
-  }
-  return Error{fmt::format("{}: there is no column \"{}\" for the {}; the columns are {}", file, given, what,
-                           list(header.names))};
-}
-
-struct Columns {
-  Column east, north, species, height, trunk, crown, id;
-};
-
-Result<Columns> find_columns(const Header& header, const InventoryColumns& given, const std::string& file) {
-  Columns out;
-  const auto take = [&](Column& into, const std::string& name, std::span<const std::string_view> usual,
-                        const char* what) -> Result<void> {
-    auto column = column_for(header, name, usual, file, what);
-    if (!column) return column.error();
-    into = *column;
-    return {};
-  };
-  if (auto r = take(out.east, given.east, kEast, "position east"); !r) return r.error();
-  if (auto r = take(out.north, given.north, kNorth, "position north"); !r) return r.error();
-  if (auto r = take(out.species, given.species, kSpecies, "species"); !r) return r.error();
-  if (auto r = take(out.height, given.height, kHeight, "height"); !r) return r.error();
-  if (auto r = take(out.trunk, given.trunk_diameter, kTrunk, "trunk diameter"); !r) return r.error();
-  if (auto r = take(out.crown, given.crown_diameter, kCrown, "crown diameter"); !r) return r.error();
-  if (auto r = take(out.id, given.id, kId, "id"); !r) return r.error();
-  if (out.trunk.index < 0) {
-    out.trunk = find(header, kGirth);
-    out.trunk.girth = true;
-  }
-  if (out.east.index >= 0 && out.north.index >= 0) return out;
-  if (find(header, kDegrees).index >= 0)
-    return Error{fmt::format("{} gives positions in degrees; metres east and north (x_m, y_m) are needed", file)};
-  return Error{fmt::format("{}: no columns for the position found among {}; usual names are x_m and y_m", file,
-                           list(header.names))};
-}
-
-// --- numbers ---
-
-enum class Reading { number, missing, text };
-
-// Words for "not measured" in real inventories.
-bool means_missing(std::string_view text) {
-  if (text.empty()) return true;
-  const std::string word = lower(text);
-  return word == "na" || word == "n/a" || word == "null" || word == "none" || word == "nan" || word == "-" ||
-         word == "?";
-}
-
-Reading read_number(std::string& text, bool decimal_comma, double& value) {
-  if (means_missing(text)) return Reading::missing;
-  if (decimal_comma && text.find('.') == std::string::npos)
-    if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
-  const char *begin = text.data(), *end = begin + text.size();
-  if (*begin == '+') ++begin;
-  const auto [stop, failed] = std::from_chars(begin, end, value);
-  return failed == std::errc() && stop == end && std::isfinite(value) ? Reading::number : Reading::text;
-}
-
-// --- rows ---
+using enum scene::TreeStatus;
+constexpr StatusWord kStatusWords[]{{"proposed", proposed},
+                                    {"planned", proposed},
+                                    {"new", proposed},
+                                    {"plant", proposed},
+                                    {"planting", proposed},
+                                    {"to_plant", proposed},
+                                    {"geplant", proposed},
+                                    {"neu", proposed},
+                                    {"neupflanzung", proposed},
+                                    {"pflanzung", proposed},
+                                    {"ersatzpflanzung", proposed},
+                                    {"projete", proposed},
+                                    {"propose", proposed},
+                                    {"nouveau", proposed},
+                                    {"plantation", proposed},
+                                    {"a_planter", proposed},
+                                    {"existing", existing},
+                                    {"retain", existing},
+                                    {"retained", existing},
+                                    {"to_retain", existing},
+                                    {"keep", existing},
+                                    {"bestand", existing},
+                                    {"bestehend", existing},
+                                    {"vorhanden", existing},
+                                    {"erhalten", existing},
+                                    {"erhalt", existing},
+                                    {"existant", existing},
+                                    {"conserve", existing},
+                                    {"a_conserver", existing},
+                                    {"maintenu", existing},
+                                    {"alive", existing},
+                                    {"remove", to_remove},
+                                    {"to_remove", to_remove},
+                                    {"removed", to_remove},
+                                    {"removal", to_remove},
+                                    {"fell", to_remove},
+                                    {"to_fell", to_remove},
+                                    {"felled", to_remove},
+                                    {"felling", to_remove},
+                                    {"faellen", to_remove},
+                                    {"zu_faellen", to_remove},
+                                    {"faellung", to_remove},
+                                    {"rodung", to_remove},
+                                    {"roden", to_remove},
+                                    {"entfernen", to_remove},
+                                    {"entfaellt", to_remove},
+                                    {"abattre", to_remove},
+                                    {"a_abattre", to_remove},
+                                    {"abattage", to_remove},
+                                    {"supprimer", to_remove},
+                                    {"a_supprimer", to_remove},
+                                    {"protected", to_protect},
+                                    {"protect", to_protect},
+                                    {"to_protect", to_protect},
+                                    {"tpo", to_protect},
+                                    {"geschuetzt", to_protect},
+                                    {"schuetzen", to_protect},
+                                    {"zu_schuetzen", to_protect},
+                                    {"naturdenkmal", to_protect},
+                                    {"protege", to_protect},
+                                    {"a_proteger", to_protect},
+                                    {"remarquable", to_protect},
+                                    {"heritage", to_protect},
+                                    {"veteran", to_protect}};
 
 class RowReader {
  public:
-  RowReader(const Header& header, const Columns& columns, bool decimal_comma, const InventoryOptions& options,
-            Inventory& out)
-      : header_(header), columns_(columns), decimal_comma_(decimal_comma), options_(options), out_(out) {}
+  RowReader(const TreeTable& table, const FoundColumns& columns, bool by_columns, Inventory& out)
+      : table_(table), columns_(columns), by_columns_(by_columns), out_(out) {}
 
-  void read(std::vector<std::string>& fields, int line) {
-    while (fields.size() > header_.names.size() && fields.back().empty()) fields.pop_back();
-    if (fields.size() > header_.names.size())
-      return refuse(line, fmt::format("{} fields, but the header has {}", fields.size(), header_.names.size()));
-    fields.resize(header_.names.size());
+  void read(TableRow& row) {
+    line_ = row.line;
+    if (!row.problem.empty()) return refuse(row.problem);
+    fields_ = &row.fields;
 
     InventoryTree tree;
-    tree.line = line;
-    DVec2 place;
-    if (!position(fields, line, columns_.east, place.x) || !position(fields, line, columns_.north, place.y)) return;
-    tree.plan = place - options_.south_west;
-    if (options_.size_m) {
-      const DVec2 size = *options_.size_m;
-      if (tree.plan.x < 0 || tree.plan.y < 0 || tree.plan.x > size.x || tree.plan.y > size.y)
-        return refuse(line, fmt::format("position {:.10g}, {:.10g} lies outside the site of {:g} x {:g} m", tree.plan.x,
-                                        tree.plan.y, size.x, size.y));
+    tree.line = row.line;
+    if (by_columns_) {
+      if (!position(columns_[InventoryField::east], tree.plan.x) ||
+          !position(columns_[InventoryField::north], tree.plan.y))
+        return;
+    } else if (!row.place || !std::isfinite(row.place->x) || !std::isfinite(row.place->y)) {
+      return refuse("its place is no number");
+    } else {
+      tree.plan = *row.place;
     }
-    if (columns_.species.index >= 0) tree.species = fields[static_cast<std::size_t>(columns_.species.index)];
-    if (columns_.id.index >= 0) tree.id = fields[static_cast<std::size_t>(columns_.id.index)];
-    tree.height_m = length(fields, line, columns_.height, kTallest);
-    tree.trunk_diameter_m = length(fields, line, columns_.trunk, kThickest);
-    tree.crown_diameter_m = length(fields, line, columns_.crown, kWidest);
+    tree.species = name();
+    // A file of ours has its own id and, beside it, the one that an inventory gave.
+    tree.id = columns_.inventory_id >= 0 ? text(columns_.inventory_id) : text(columns_[InventoryField::id].index);
+    if (columns_.inventory_name >= 0) tree.name_kept = text(columns_.inventory_name);
+    if (const std::string surveyed = text(columns_.surveyed); surveyed == "0" || surveyed == "false")
+      tree.surveyed = false;
+    tree.height_m = length(columns_[InventoryField::height], kTallest);
+    tree.trunk_diameter_m = length(columns_[InventoryField::trunk_diameter], kThickest);
+    tree.crown_diameter_m = length(columns_[InventoryField::crown_diameter], kWidest);
+    tree.clear_stem_m = length(columns_[InventoryField::clear_stem], kTallest, true);
+    if (tree.clear_stem_m && tree.height_m && *tree.clear_stem_m >= *tree.height_m) {
+      note(fmt::format("{} is {:g} m, not below the height of {:g} m", column(columns_[InventoryField::clear_stem]),
+                       *tree.clear_stem_m, *tree.height_m));
+      tree.clear_stem_m.reset();
+    }
+    tree.age_years = years(columns_[InventoryField::age]);
+    tree.status = status(columns_[InventoryField::status]);
     out_.trees.push_back(std::move(tree));
   }
 
  private:
-  void refuse(int line, std::string reason) { out_.problems.push_back({line, std::move(reason), false}); }
-  void note(int line, std::string reason) { out_.problems.push_back({line, std::move(reason), true}); }
+  void refuse(std::string reason) { out_.problems.push_back({line_, std::move(reason), false}); }
+  void note(std::string reason) { out_.problems.push_back({line_, std::move(reason), true}); }
 
-  const std::string& name(const Column& column) const { return header_.names[static_cast<std::size_t>(column.index)]; }
+  const std::string& column(const FoundColumn& c) const { return table_.columns[static_cast<std::size_t>(c.index)]; }
+  const std::string& text(int index) const {
+    static const std::string none;
+    return index >= 0 ? (*fields_)[static_cast<std::size_t>(index)] : none;
+  }
 
-  bool position(std::vector<std::string>& fields, int line, const Column& column, double& out) {
-    std::string& text = fields[static_cast<std::size_t>(column.index)];
-    double value = 0;
-    switch (read_number(text, decimal_comma_, value)) {
-      case Reading::missing:
-        refuse(line, fmt::format("{} is missing", name(column)));
+  // Genus, species and cultivar may stand in columns of their own: "Acer", "platanoides", "Globosum".
+  std::string name() const {
+    std::string out = text(columns_[InventoryField::species].index);
+    if (const std::string& genus = text(columns_.genus); !genus.empty()) {
+      const bool epithet =
+          !out.empty() && !(out.front() >= 'A' && out.front() <= 'Z') && out.find(' ') == std::string::npos;
+      if (out.empty())
+        out = genus;
+      else if (epithet && genus.find(' ') == std::string::npos)
+        out = genus + ' ' + out;
+    }
+    if (const std::string& cultivar = text(columns_.cultivar);
+        !cultivar.empty() && out.find(cultivar) == std::string::npos)
+      out += cultivar.front() == '\'' ? ' ' + cultivar : " '" + cultivar + '\'';
+    return out;
+  }
+
+  bool position(const FoundColumn& c, double& out) {
+    const NumberText number = read_number(text(c.index), table_.decimal_comma);
+    switch (number.reading) {
+      case NumberReading::missing:
+        refuse(fmt::format("{} is missing", column(c)));
         return false;
-      case Reading::text:
-        refuse(line, fmt::format("{} is {}, not a number", name(column), excerpt(text)));
+      case NumberReading::text:
+        refuse(fmt::format("{} is {}, not a number", column(c), excerpt(text(c.index))));
         return false;
-      case Reading::number:
+      case NumberReading::number:
         break;
     }
-    out = value * column.metres;
+    out = number.value * c.metres;
     return true;
   }
 
-  std::optional<float> length(std::vector<std::string>& fields, int line, const Column& column, double largest) {
-    if (column.index < 0) return std::nullopt;
-    std::string& text = fields[static_cast<std::size_t>(column.index)];
-    double value = 0;
-    switch (read_number(text, decimal_comma_, value)) {
-      case Reading::missing:
-        return std::nullopt;
-      case Reading::text:
-        note(line, fmt::format("{} is {}, not a number", name(column), excerpt(text)));
-        return std::nullopt;
-      case Reading::number:
-        break;
-    }
-    const double metres = value * column.metres / (column.girth ? std::numbers::pi : 1.0);
-    if (metres > 0 && metres <= largest) return static_cast<float>(metres);
-    note(line, value <= 0 ? fmt::format("{} is {}, not above 0", name(column), text)
-                          : fmt::format("{} is {}, which would be {:g} m; at most {:g} m are possible", name(column),
-                                        text, metres, largest));
-    return std::nullopt;
+  std::optional<double> number(const FoundColumn& c, std::optional<double>* metres) {
+    if (c.index < 0) return {};
+    const NumberText read = read_number(text(c.index), table_.decimal_comma);
+    if (read.reading == NumberReading::text)
+      note(fmt::format("{} is {}, not a number", column(c), excerpt(text(c.index))));
+    if (read.reading != NumberReading::number) return {};
+    if (metres) *metres = read.metres;
+    return read.value;
   }
 
-  const Header& header_;
-  const Columns& columns_;
-  bool decimal_comma_;
-  const InventoryOptions& options_;
+  std::optional<float> length(const FoundColumn& c, double largest, bool may_be_zero = false) {
+    std::optional<double> unit;
+    const auto value = number(c, &unit);
+    if (!value) return {};
+    if (may_be_zero && *value == 0) return {};
+    const double metres = *value * unit.value_or(c.metres) / (c.girth ? std::numbers::pi : 1.0);
+    if (metres > 0 && metres <= largest) return static_cast<float>(metres);
+    const std::string& said = text(c.index);
+    note(*value <= 0 ? fmt::format("{} is {}, not above 0", column(c), said)
+                     : fmt::format("{} is {}, which would be {:g} m; at most {:g} m are possible", column(c), said,
+                                   metres, largest));
+    return {};
+  }
+
+  std::optional<float> years(const FoundColumn& c) {
+    const auto value = number(c, nullptr);
+    if (!value) return {};
+    if (*value > 0 && *value <= kOldest) return static_cast<float>(*value);
+    note(fmt::format("{} is {}, no age in years", column(c), text(c.index)));
+    return {};
+  }
+
+  std::optional<scene::TreeStatus> status(const FoundColumn& c) {
+    const std::string& said = text(c.index);
+    if (said.empty()) return {};
+    const std::string word = folded_words(said);
+    for (const StatusWord& known : kStatusWords)
+      if (known.word == word) return known.status;
+    note(fmt::format("{} is {}, none of proposed, existing, to_remove, protected", column(c), excerpt(said)));
+    return {};
+  }
+
+  const TreeTable& table_;
+  const FoundColumns& columns_;
+  bool by_columns_;
   Inventory& out_;
+  int line_ = 0;
+  const std::vector<std::string>* fields_ = nullptr;
 };
 
 // Whether a trunk column without unit can be metres.
-bool fits_metres(std::string_view body, char separator, const Column& trunk) {
-  CsvReader rows(body, separator);
-  std::vector<std::string> fields;
-  rows.next(fields);  // the header
-  while (rows.next(fields)) {
-    double value = 0;
+bool fits_metres(TreeTable& table, const FoundColumn& trunk) {
+  TableRow row;
+  bool fits = true;
+  while (fits && table.next(row)) {
     const auto i = static_cast<std::size_t>(trunk.index);
-    if (i < fields.size() && read_number(fields[i], separator != ',', value) == Reading::number &&
-        value > kTrunkInMetres * (trunk.girth ? std::numbers::pi : 1.0))
-      return false;
+    if (!row.problem.empty() || i >= row.fields.size()) continue;
+    const NumberText number = read_number(row.fields[i], table.decimal_comma);
+    fits = number.reading != NumberReading::number || number.metres ||
+           number.value <= kTrunkInMetres * (trunk.girth ? std::numbers::pi : 1.0);
   }
-  return true;
+  table.restart();
+  return fits;
+}
+
+// Coordinates of the file become places on the site; what is not on it goes.
+Result<void> locate(Inventory& inventory, const FrameOf& frame, const std::string& name) {
+  std::vector<DVec2> places;
+  places.reserve(inventory.trees.size());
+  for (const InventoryTree& tree : inventory.trees) places.push_back(tree.plan);
+  auto on_site = onto_site(std::move(places), frame);
+  if (!on_site) return Error{fmt::format("{}: {}", name, on_site.error().message)};
+  inventory.place = std::move(on_site->place);
+  for (std::string& note : on_site->notes) inventory.notes.push_back(std::move(note));
+
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < inventory.trees.size(); ++i) {
+    InventoryTree& tree = inventory.trees[i];
+    tree.plan = on_site->plan[i];
+    std::string reason;
+    if (!std::isfinite(tree.plan.x) || !std::isfinite(tree.plan.y))
+      reason = "its position is no place in the site's reference system";
+    else if (frame.size_m &&
+             (tree.plan.x < 0 || tree.plan.y < 0 || tree.plan.x > frame.size_m->x || tree.plan.y > frame.size_m->y))
+      reason = fmt::format("position {:.10g}, {:.10g} lies outside the site of {:g} x {:g} m", tree.plan.x, tree.plan.y,
+                           frame.size_m->x, frame.size_m->y);
+    if (!reason.empty()) {
+      inventory.problems.push_back({tree.line, std::move(reason), false});
+      continue;
+    }
+    if (kept != i) inventory.trees[kept] = std::move(tree);
+    ++kept;
+  }
+  inventory.trees.resize(kept);
+  std::stable_sort(inventory.problems.begin(), inventory.problems.end(),
+                   [](const RowProblem& a, const RowProblem& b) { return a.line < b.line; });
+  return {};
+}
+
+Result<Inventory> read(TreeTable& table, const std::string& name, const InventoryOptions& options) {
+  Inventory out;
+  out.features = table.has_places;
+  out.notes = table.notes;
+  const bool by_columns = !table.has_places || (!options.columns.east.empty() && !options.columns.north.empty());
+  auto columns = find_columns(table.columns, options.columns, options.units, by_columns, name);
+  if (!columns) return columns.error();
+
+  FrameOf frame{table.crs_wkt,      table.crs_assumed, table.metres_per_unit,
+                options.south_west, options.site,      options.size_m};
+  if (by_columns) {
+    frame.metres_per_unit = 1;  // the columns' own units have done it
+    frame.crs_wkt = (*columns)[InventoryField::east].degrees ? degrees_system() : std::string();
+    frame.crs_assumed = false;
+  } else if (!options.units.position.empty()) {
+    frame.metres_per_unit = metres_of_unit(options.units.position).value_or(1);
+  }
+  if (!options.crs.empty()) {
+    auto wkt = reference_system(options.crs);
+    if (!wkt) return Error{fmt::format("{}: {}", name, wkt.error().message)};
+    frame.crs_wkt = *wkt, frame.crs_assumed = false;
+  }
+
+  if (FoundColumn& trunk = (*columns)[InventoryField::trunk_diameter]; trunk.index >= 0 && !trunk.has_unit) {
+    const bool metres = fits_metres(table, trunk);
+    trunk.metres = metres ? 1 : 0.01;
+    out.notes.push_back(fmt::format("column {} names no unit; taken as {}",
+                                    table.columns[static_cast<std::size_t>(trunk.index)], metres ? "m" : "cm"));
+  }
+  for (std::size_t f = 0; f < kInventoryFields; ++f) {
+    const auto field = static_cast<InventoryField>(f);
+    const bool unused = !by_columns && (field == InventoryField::east || field == InventoryField::north);
+    if (const int i = (*columns)[field].index; i >= 0 && !unused)
+      out.columns[field] = table.columns[static_cast<std::size_t>(i)];
+  }
+
+  RowReader reader(table, *columns, by_columns, out);
+  TableRow row;
+  while (table.next(row)) reader.read(row);
+  if (auto located = locate(out, frame, name); !located) return located.error();
+  return out;
 }
 
 }  // namespace
 
+bool is_vector_file(const std::filesystem::path& path) {
+  const std::string ending = folded_letters(path.extension().string());
+  for (const char* known : {".geojson", ".json", ".gpkg", ".shp", ".dxf", ".kml", ".gml", ".fgb", ".tab", ".sqlite"})
+    if (ending == known) return true;
+  return false;
+}
+
 Result<Inventory> parse_inventory(std::string_view text, const std::string& name, const InventoryOptions& options) {
-  Inventory out;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    return Error{fmt::format("{} is UTF-16 text; save it as UTF-8", name)};
-  if (text.find('\0') != std::string_view::npos) return Error{fmt::format("{} is no text file", name)};
-  std::string converted;
-  if (!valid_utf8(text)) {
-    converted = from_latin1(text);
-    text = converted;
-    out.notes.push_back("not UTF-8, read as Latin-1");
-  }
-
-  const char separator = guess_separator(text);
-  CsvReader rows(text, separator);
-  Header header;
-  if (!rows.next(header.names))
-    return Error{fmt::format("{} is empty: a header row and a row for each tree are needed", name)};
-  for (const std::string& column : header.names) header.plain_names.push_back(plain(column));
-  auto columns = find_columns(header, options.columns, name);
-  if (!columns) return columns.error();
-
-  Column& trunk = columns->trunk;
-  if (trunk.index >= 0 && !trunk.has_unit) {
-    const bool metres = fits_metres(text, separator, trunk);
-    trunk.metres = metres ? 1 : 0.01;
-    out.notes.push_back(fmt::format("column {} names no unit; taken as {}",
-                                    header.names[static_cast<std::size_t>(trunk.index)], metres ? "m" : "cm"));
-  }
-  const auto found = [&](const Column& column) {
-    return column.index >= 0 ? header.names[static_cast<std::size_t>(column.index)] : std::string();
-  };
-  out.columns = {found(columns->east),  found(columns->north), found(columns->species), found(columns->height),
-                 found(columns->trunk), found(columns->crown), found(columns->id)};
-
-  RowReader reader(header, *columns, separator != ',', options, out);
-  std::vector<std::string> fields;
-  while (rows.next(fields)) reader.read(fields, rows.line());
-  return out;
+  auto table = csv_table(text, name);
+  if (!table) return table.error();
+  return read(**table, name, options);
 }
 
 Result<Inventory> read_inventory(const std::filesystem::path& path, const InventoryOptions& options) {
+  if (is_vector_file(path)) {
+    auto table = vector_table(path, options.layer);
+    if (!table) return table.error();
+    return read(**table, path.string(), options);
+  }
   const auto bytes = read_file(path, kMaxFileBytes);
   if (!bytes) return bytes.error();
   return parse_inventory({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), options);
 }
 
-std::vector<std::string> problem_lines(const std::vector<RowProblem>& problems, const std::string& name,
+std::vector<std::string> problem_lines(const std::vector<RowProblem>& problems, const std::string& name, bool features,
                                        std::size_t most) {
   std::vector<std::string> out;
   for (const RowProblem& p : problems) {
     if (out.size() == most) break;
-    out.push_back(fmt::format("{}:{}: {}{}", name, p.line, p.reason,
+    const std::string where =
+        features ? fmt::format("{}: feature {}", name, p.line) : fmt::format("{}:{}", name, p.line);
+    out.push_back(fmt::format("{}: {}{}", where, p.reason,
                               p.kept ? "; the tree is planted without it" : "; the row is left out"));
   }
   if (problems.size() > most) {
-    std::string rest = fmt::format("{}: and {} more, in lines", name, problems.size() - most);
+    std::string rest =
+        fmt::format("{}: and {} more, in {}", name, problems.size() - most, features ? "features" : "lines");
     for (std::size_t i = most; i < problems.size(); ++i)
       rest += fmt::format("{}{}", i == most ? " " : ", ", problems[i].line);
     out.push_back(std::move(rest));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "exchange/reference_system.h"
 #include "scene/species_names.h"
 #include "scene/toml_table.h"
 
@@ -25,7 +26,9 @@ class Reader {
   Result<void> read(TomlTable& root, std::optional<std::uint64_t> seed) {
     read_site(root);
     if (seed) recipe_.document.seed = *seed;
-    if (auto table = root.table("terrain")) read_ground(*table);
+    if (auto table = root.table("terrain")) read_ground(*table, folder_, recipe_.ground);
+    if (recipe_.size_m == Vec2(0.0f) && !recipe_.ground.has_extent())
+      root.error("site", "size_m = [east, north] in metres is missing in [site]");
     if (auto read = read_species(root); !read) return read;
     for (TomlTable& table : root.tables("interaction")) read_interaction(table);
     for (TomlTable& table : root.tables("planting")) read_planting(table);
@@ -59,50 +62,26 @@ class Reader {
           site->error("size_m", fmt::format("size_m = [{:g}, {:g}] is no site; each side must be {:g} to {:g} m",
                                             (*size)[0], (*size)[1], kLeastSite_m, kMostSite_m));
       recipe_.size_m = {static_cast<float>((*size)[0]), static_cast<float>((*size)[1])};
-    } else if (!site->has("size_m")) {
-      site->error("", "size_m = [east, north] in metres is missing in [site]");
     }
+    read_site_ground(*site, folder_, recipe_.ground);
     if (auto seed = site->integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
       recipe_.document.seed = static_cast<std::uint64_t>(*seed);
     scene::Georeference& place = recipe_.document.place;
     place.latitude_deg = site->number("latitude_deg", -90, 90).value_or(place.latitude_deg);
     place.longitude_deg = site->number("longitude_deg", -180, 180).value_or(place.longitude_deg);
     if (auto corner = site->numbers("south_west", 2)) place.south_west = {(*corner)[0], (*corner)[1]};
+    if (auto crs = site->text("crs")) {
+      auto wkt = reference_system(*crs);
+      if (!wkt)
+        site->error("crs", wkt.error().message);
+      else if (const SystemFacts facts = system_facts(*wkt);
+               facts.geographic || std::abs(facts.metres_per_unit - 1) > 1e-9)
+        site->error("crs",
+                    fmt::format("{} is no plane in metres; give one of your region, like EPSG:25832", facts.name));
+      else
+        place.crs_wkt = std::move(*wkt);
+    }
     site->finish();
-  }
-
-  void read_ground(TomlTable& table) {
-    GroundRecipe& ground = recipe_.ground;
-    if (auto noise = table.table("noise")) {
-      ground.noise.amplitude_m = 0.3f;
-      describe(ground.noise, *noise), noise->finish();
-    }
-    if (auto dem = table.text("dem")) ground.dem = folder_ / *dem;
-    if (auto corner = table.numbers("dem_south_west", 2))
-      ground.dem_south_west = {(*corner)[0], (*corner)[1]}, ground.dem_corner_given = true;
-    if (auto level = table.number("water_level_m", -10000, 10000)) ground.water_level_m = static_cast<float>(*level);
-    for (TomlTable& item : table.tables("stroke")) {
-      terrain::Stroke stroke;
-      describe(stroke, item);
-      stroke.points = required_points(item, "points");
-      stroke.seed = hash_text("stroke") + ground.strokes.size();
-      item.finish();
-      ground.strokes.push_back(std::move(stroke));
-    }
-    for (TomlTable& item : table.tables("exclusion")) {
-      Polygon area{required_points(item, "polygon"), {}};
-      if (area.ring.size() < 3) item.error("polygon", "a polygon needs at least three points");
-      ground.exclusions.emplace_back(item.text("name").value_or("exclusion"), std::move(area));
-      item.finish();
-    }
-    for (TomlTable& item : table.tables("path")) {
-      PathArea path{item.text("name").value_or("path"), required_points(item, "points"), 2.0f};
-      path.width_m = static_cast<float>(item.number("width_m", 0.1, 1000).value_or(2.0));
-      if (path.points.size() < 2) item.error("points", "a path needs at least two points");
-      ground.paths.push_back(std::move(path));
-      item.finish();
-    }
-    table.finish();
   }
 
   // Species named by the recipe, with overrides, come first; built-in ones join when a planting names them.
@@ -197,7 +176,8 @@ class Reader {
                                 scale ? static_cast<float>((*scale)[1]) : 0.0f});
       }
       if (total == 0) table.error("species", "the shares of the species are all zero");
-    } else if (planting.kind != PlantingKind::inventory && !table.has("species")) {
+    } else if (planting.kind != PlantingKind::inventory && planting.kind != PlantingKind::trees &&
+               !table.has("species")) {
       table.error("", "species = { english_oak = 1 } is missing in [[planting]]");
     }
 
@@ -252,6 +232,12 @@ class Reader {
       case PlantingKind::inventory:
         read_inventory_block(table, planting, scale);
         break;
+      case PlantingKind::trees:
+        if (auto file = table.text("file"))
+          planting.file = folder_ / *file;
+        else if (!table.has("file"))
+          table.error("", "trees need file = \"trees.csv\", a table that bosquet wrote");
+        break;
     }
     read_order(table, planting);
     table.finish();
@@ -302,28 +288,41 @@ class Reader {
     if (auto file = table.text("file"))
       planting.file = folder_ / *file;
     else if (!table.has("file"))
-      table.error("", "an inventory needs file = \"trees.csv\"");
+      table.error("", "an inventory needs file = \"trees.csv\", or .geojson .gpkg .shp .dxf");
+    TreeImport& import = planting.import;
+    import.block = planting.name;
     if (auto columns = table.table("columns")) {
-      InventoryColumns& c = planting.columns;
-      for (auto [key, value] : {std::pair{"east", &c.east},
-                                {"north", &c.north},
-                                {"species", &c.species},
-                                {"height", &c.height},
-                                {"trunk_diameter", &c.trunk_diameter},
-                                {"crown_diameter", &c.crown_diameter},
-                                {"id", &c.id}})
-        if (auto text = columns->text(key)) *value = *text;
+      for (std::size_t f = 0; f < kInventoryFields; ++f)
+        if (auto text = columns->text(kInventoryFieldNames[f]))
+          import.reading.columns[static_cast<InventoryField>(f)] = *text;
       columns->finish();
     }
-    if (auto corner = table.numbers("south_west", 2)) planting.south_west = {(*corner)[0], (*corner)[1]};
+    if (auto units = table.table("units")) {
+      InventoryUnits& u = import.reading.units;
+      for (auto [key, value] : {std::pair{"position", &u.position},
+                                {"height", &u.height},
+                                {"trunk_diameter", &u.trunk_diameter},
+                                {"crown_diameter", &u.crown_diameter},
+                                {"clear_stem", &u.clear_stem}})
+        if (auto text = units->text(key)) {
+          if (!metres_of_unit(*text))
+            units->error(key, fmt::format("{} = \"{}\" must be one of m, cm, mm, in, ft", key, *text));
+          *value = *text;
+        }
+      units->finish();
+    }
+    if (auto crs = table.text("crs")) {
+      import.reading.crs = *crs;
+      if (auto known = reference_system(*crs); !known) table.error("crs", known.error().message);
+    }
+    if (auto layer = table.text("layer")) import.reading.layer = *layer;
+    if (auto synonyms = table.text("synonyms")) import.synonyms = folder_ / *synonyms;
+    if (auto corner = table.numbers("south_west", 2)) import.reading.south_west = DVec2((*corner)[0], (*corner)[1]);
+    if (scale) import.scale = Vec2{static_cast<float>((*scale)[0]), static_cast<float>((*scale)[1])};
     const std::string fallback = table.text("default_species").value_or("english_oak");
     if (auto index = species(table, "default_species", fallback)) planting.default_species = *index;
     // An inventory may name any built-in species, so all of them are known from here on.
     for (const std::string& name : scene::builtin_species_names()) species(table, "default_species", name);
-    if (scale)
-      for (std::size_t i = 0; i < recipe_.document.species.size(); ++i)
-        planting.mix.push_back(
-            {static_cast<std::uint32_t>(i), 1.0f, static_cast<float>((*scale)[0]), static_cast<float>((*scale)[1])});
   }
 
   void read_space(TomlTable& table) {
@@ -356,13 +355,35 @@ class Reader {
     obstacle.rotation_deg = static_cast<float>(table.number("rotation_deg", -360, 360).value_or(0.0));
     obstacle.scale = static_cast<float>(table.number("scale", 1e-4, 1e4).value_or(1.0));
     obstacle.height_m = static_cast<float>(table.number("height_m", 0.1, 1000).value_or(8.0));
+    for (TomlTable& hole : table.tables("hole")) {
+      obstacle.holes.push_back(required_points(hole, "polygon"));
+      hole.finish();
+    }
+    if (auto low = table.number("low_m", -11'000, 10'000)) obstacle.low_m = static_cast<float>(*low);
+    if (auto high = table.number("high_m", -11'000, 10'000)) obstacle.high_m = static_cast<float>(*high);
+    if (table.has("low_m") != table.has("high_m") || (table.has("low_m") && table.has("height_m")))
+      table.error(table.has("low_m") ? "low_m" : "high_m", "low_m and high_m stand together, in place of height_m");
+    else if (obstacle.low_m && !(*obstacle.low_m < *obstacle.high_m))
+      table.error("high_m", "high_m must be above low_m");
+    obstacle.on_ground = table.boolean("on_ground").value_or(true);
+    obstacle.id = read_standing_id(table);
     const std::string ending = obstacle.file.extension().string();
     const bool mesh = ending == ".glb" || ending == ".gltf" || ending == ".obj";
-    for (const char* key : {"at", "rotation_deg", "scale"})
+    for (const char* key : {"low_m", "high_m", "hole"})
+      if (table.has(key) && obstacle.outline.empty()) table.error(key, fmt::format("{} is for a polygon", key));
+    for (const char* key : {"at", "rotation_deg", "scale", "on_ground"})
       if (table.has(key) && !mesh) table.error(key, fmt::format("{} is for meshes (.glb, .gltf, .obj)", key));
     if (mesh && table.has("height_m")) table.error("height_m", "a mesh has its own height; use scale");
     table.finish();
     recipe_.obstacles.push_back(std::move(obstacle));
+  }
+
+  // Ids of obstacles and hero trees, below 0 and each given once; 0 when none is told.
+  std::int32_t read_standing_id(TomlTable& table) {
+    const auto id = table.integer("id", std::numeric_limits<std::int32_t>::min() + 1, -1);
+    if (!id) return 0;
+    if (!standing_ids_.insert(*id).second) table.error("id", fmt::format("the id {} is given twice", *id));
+    return static_cast<std::int32_t>(*id);
   }
 
   Result<void> read_hero(TomlTable& table) {
@@ -374,6 +395,7 @@ class Reader {
       table.error("", "a [[hero]] needs at = [east, north]");
     hero.rotation_deg = static_cast<float>(table.number("rotation_deg", -360, 360).value_or(0.0));
     hero.scale = static_cast<float>(table.number("scale", 0.02, 10).value_or(1.0));
+    hero.id = read_standing_id(table);
     if (auto file = table.text("file")) {
       hero.file = folder_ / *file;
       auto tree = read_tree(hero.file);
@@ -430,6 +452,7 @@ class Reader {
   std::filesystem::path folder_;
   Recipe& recipe_;
   std::set<std::string> names_;
+  std::set<std::int64_t> standing_ids_;
 };
 
 Result<Recipe> read(Result<scene::TomlFile> file, const std::filesystem::path& path,

@@ -25,35 +25,17 @@
 #include "distribution/rows.h"
 #include "distribution/sowing.h"
 #include "distribution/thinning.h"
-#include "exchange/inventory.h"
+#include "exchange/ground_recipe.h"
 #include "exchange/tree_file.h"
+#include "exchange/tree_import.h"
 #include "scene/document.h"
 #include "scene/grown_scene.h"
-#include "terrain/brush.h"
-#include "terrain/perlin.h"
 
 namespace bosquet::exchange {
 
-struct PathArea {
-  std::string name;
-  std::vector<Vec2> points;
-  float width_m = 2.0f;
-};
-
-struct GroundRecipe {
-  terrain::PerlinNoise noise{.amplitude_m = 0.0f};
-  std::filesystem::path dem;
-  DVec2 dem_south_west{0.0};  ///< the site's corner in the raster's coordinates
-  bool dem_corner_given = false;
-  std::vector<terrain::Stroke> strokes;
-  std::optional<float> water_level_m;
-  std::vector<std::pair<std::string, Polygon>> exclusions;
-  std::vector<PathArea> paths;
-};
-
-enum class PlantingKind { fill, thinning, brush, row, grid, hedge, single, inventory };
-inline constexpr std::array<std::string_view, 8> kPlantingKindNames{"fill", "thinning", "brush",  "row",
-                                                                    "grid", "hedge",    "single", "inventory"};
+enum class PlantingKind { fill, thinning, brush, row, grid, hedge, single, inventory, trees };
+inline constexpr std::array<std::string_view, 9> kPlantingKindNames{"fill", "thinning", "brush",  "row",
+                                                                    "grid", "hedge",    "single", "inventory", "trees"};
 
 /// What is ordered of a block's trees beside their species and size.
 struct TreeOrder {
@@ -88,8 +70,7 @@ struct PlantingRecipe {
   Vec2 at{0.0f};
   float scale = 1.0f;
   std::filesystem::path file;
-  InventoryColumns columns;
-  DVec2 south_west{0.0};
+  TreeImport import;  ///< of an inventory
   std::size_t default_species = 0;
 };
 
@@ -101,6 +82,10 @@ struct ObstacleRecipe {
   float rotation_deg = 0.0f;   ///< counter-clockwise seen from above
   float scale = 1.0f;
   float height_m = 8.0f;  ///< of outlines that say none
+  std::vector<std::vector<Vec2>> holes;           ///< of `outline`
+  std::optional<float> low_m, high_m;             ///< of `outline`, above datum; in place of height_m
+  bool on_ground = true;                          ///< a mesh's height 0 is the ground at `at`, else the datum
+  std::int32_t id = 0;                            ///< 0: the next
 };
 
 struct HeroRecipe {
@@ -108,6 +93,7 @@ struct HeroRecipe {
   std::filesystem::path file;
   Vec2 at{0.0f};
   float scale = 1.0f, rotation_deg = 0.0f;
+  std::int32_t id = 0;  ///< 0: the next
   std::size_t species = 0;  ///< for its look
   std::shared_ptr<const SavedTree> tree;
 };
@@ -120,7 +106,7 @@ struct CameraRecipe {
 
 struct Recipe {
   std::filesystem::path file;
-  Vec2 size_m{0.0f};
+  Vec2 size_m{0.0f};       ///< (0, 0): the site is as large as its boundary or its elevation
   scene::Document document;  ///< species and settings; ground and trees come with build_document
   GroundRecipe ground;
   int layers = 0;  ///< of the crown space, when given in place of layer_m

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/hash.h"
 #include "core/stopwatch.h"
-#include "distribution/inventory.h"
 #include "distribution/planting.h"
-#include "exchange/elevation.h"
 #include "exchange/footprints.h"
 #include "exchange/mesh_file.h"
 #include "exchange/recipe.h"
+#include "exchange/recipe_write.h"
 #include "geometry/prism.h"
 #include "scene/clipped_tree.h"
 #include "scene/species_names.h"
@@ -29,61 +29,24 @@ constexpr float kHedgeOverlap = 1.5f, kHedge_m = 0.5f, kPanel_m = 0.5f;
 // A list this long says as much as a longer one.
 constexpr std::size_t kListedPlaces = 5;
 
-Result<terrain::Terrain> make_ground(const Recipe& recipe, scene::Georeference& place,
-                                     std::vector<std::string>& warnings) {
-  const GroundRecipe& ground = recipe.ground;
-  auto lattice = terrain::make_lattice(recipe.size_m);
-  if (!lattice) return lattice.error();
-
-  terrain::Terrain site;
-  site.height = terrain::Heightfield(*lattice);
-  site.exclusion = terrain::Mask(*lattice, 0.0f);
-  site.density = terrain::Mask(*lattice, 1.0f);
-  if (!ground.dem.empty()) {
-    auto raster = read_elevation(ground.dem);
-    if (!raster) return raster.error();
-    // Without a corner the site's middle is the raster's, so a site as large as the raster fits it whatever its origin.
-    DVec2 corner = ground.dem_south_west;
-    if (!ground.dem_corner_given)
-      corner = 0.5 * (raster->low_corner() + raster->high_corner()) - 0.5 * DVec2(recipe.size_m);
-    auto heights = heights_at_corners(*raster, corner, lattice->cells.x, lattice->cells.y,
-                                      static_cast<double>(lattice->cell_m), DVec2(recipe.size_m));
-    if (!heights) return heights.error();
-    auto field = terrain::Heightfield::from_samples(*lattice, *heights);
-    if (!field) return field.error();
-    site.height = std::move(*field);
-    place.south_west = corner;
-    place.crs_wkt = raster->crs_wkt;
-    if (raster->filled > 0)
-      warnings.push_back(fmt::format("{}: {} cells without data were filled from their surroundings",
-                                     ground.dem.string(), raster->filled));
-    if (raster->reprojected) warnings.push_back(fmt::format("{}: reprojected to local metres", ground.dem.string()));
-  }
-  if (ground.noise.amplitude_m > 0.0f)
-    site.height = terrain::with_noise(site.height, ground.noise, recipe.document.seed);
-  for (terrain::Stroke stroke : ground.strokes) {
-    stroke.seed += recipe.document.seed;
-    site = terrain::apply(site, stroke);
-  }
-  site.water_level_m = ground.water_level_m;
-  for (const auto& [name, area] : ground.exclusions) site = terrain::exclude(site, area);
-  for (const PathArea& path : ground.paths) site = terrain::exclude_path(site, path.points, path.width_m);
-  return site;
-}
-
 // Walls go down to the lowest ground at the outline, and so much farther; heights count from the mean of it.
 constexpr float kFoundation_m = 0.3f;
+
+scene::Obstacle extruded_between(std::string name, Polygon outline, float low_y, float high_y) {
+  scene::Obstacle out;
+  out.id = 0;  // the next one
+  out.name = std::move(name);
+  out.low_y = low_y, out.high_y = high_y;
+  out.mesh = std::make_shared<const TriangleMesh>(geometry::prism(outline, out.low_y, out.high_y));
+  out.outline = std::make_shared<const Polygon>(std::move(outline));
+  return out;
+}
 
 scene::Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground) {
   float lowest = ground.ground(outline.ring.front()), sum = 0;
   for (Vec2 p : outline.ring) lowest = std::min(lowest, ground.ground(p)), sum += ground.ground(p);
-  scene::Obstacle out;
-  out.name = std::move(name);
-  out.low_y = lowest - kFoundation_m;
-  out.high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
-  out.mesh = std::make_shared<const TriangleMesh>(geometry::prism(outline, out.low_y, out.high_y));
-  out.outline = std::make_shared<const Polygon>(std::move(outline));
-  return out;
+  const float high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
+  return extruded_between(std::move(name), std::move(outline), lowest - kFoundation_m, high_y);
 }
 
 // A mesh of somebody else's, scaled, turned and set on the ground.
@@ -92,11 +55,29 @@ TriangleMesh placed(TriangleMesh mesh, const ObstacleRecipe& at, const terrain::
   const auto turned = [&](const Vec3& v) {
     return Vec3{turn.cos * v.x + turn.sin * v.z, v.y, turn.cos * v.z - turn.sin * v.x};
   };
-  const Vec3 foot = to_world(at.at, ground.ground(at.at));
+  const Vec3 foot = to_world(at.at, at.on_ground ? ground.ground(at.at) : 0.0f);
   for (Vec3& p : mesh.positions) p = foot + turned(at.scale * p);
   for (Vec3& n : mesh.normals) n = turned(n);
   return mesh;
 }
+
+// Ids below 0, from -1 down, that no obstacle or hero tree of the recipe asks for.
+class StandingIds {
+ public:
+  explicit StandingIds(const Recipe& recipe) {
+    for (const ObstacleRecipe& o : recipe.obstacles) taken_.insert(o.id);
+    for (const HeroRecipe& h : recipe.heroes) taken_.insert(h.id);
+  }
+  void take(std::int32_t id) { taken_.insert(id); }
+  std::int32_t next() {
+    while (taken_.contains(next_)) --next_;
+    return next_--;
+  }
+
+ private:
+  std::set<std::int32_t> taken_;
+  std::int32_t next_ = -1;
+};
 
 Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std::vector<std::string>& warnings) {
   const terrain::Terrain& ground = *document.terrain;
@@ -104,31 +85,40 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
   for (const ObstacleRecipe& o : recipe.obstacles) {
     const std::string ending = o.file.extension().string();
     if (o.file.empty()) {
-      all.push_back(extruded(o.name, {o.outline, {}}, o.height_m, ground));
+      all.push_back(o.low_m ? extruded_between(o.name, {o.outline, o.holes}, *o.low_m, *o.high_m)
+                            : extruded(o.name, {o.outline, o.holes}, o.height_m, ground));
     } else if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
       auto mesh = read_mesh(o.file);
       if (!mesh) return Error{fmt::format("obstacle '{}': {}", o.name, mesh.error().message)};
       scene::Obstacle obstacle;
+      obstacle.id = 0;  // the next one
       obstacle.name = o.name;
       obstacle.mesh = std::make_shared<const TriangleMesh>(placed(std::move(*mesh), o, ground));
       all.push_back(std::move(obstacle));
     } else {
-      auto outlines = read_footprints(o.file, document.place.south_west);
+      auto outlines = read_footprints(o.file, document.place, DVec2(recipe.size_m));
       if (!outlines) return Error{fmt::format("obstacle '{}': {}", o.name, outlines.error().message)};
+      if (outlines->place) document.place = *outlines->place;
       for (const std::string& note : outlines->notes) warnings.push_back(fmt::format("{}: {}", o.file.string(), note));
       for (Footprint& f : outlines->all)
         all.push_back(extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(o.height_m), ground));
     }
+    // A file of outlines makes several: their ids are the next ones.
+    all.back().id = o.id;
     if (all.back().mesh->empty()) return Error{fmt::format("obstacle '{}': its outline has no area", all.back().name)};
   }
-  for (std::size_t n = 0; n < all.size(); ++n) all[n].id = -1 - static_cast<std::int32_t>(n);
+  StandingIds ids(recipe);
+  for (scene::Obstacle& o : all)
+    if (o.id >= 0) o.id = ids.next();
   document.obstacles = std::move(all);
   return {};
 }
 
 void place_heroes(const Recipe& recipe, scene::Document& document) {
+  StandingIds ids(recipe);
+  for (const scene::Obstacle& o : document.obstacles) ids.take(o.id);
   for (const HeroRecipe& h : recipe.heroes) {
-    const auto id = -1 - static_cast<std::int32_t>(document.obstacles.size() + document.heroes.size());
+    const std::int32_t id = h.id < 0 ? h.id : ids.next();
     document.heroes.push_back(
         {id, h.name, h.species, h.tree->key, h.at,
          std::make_shared<const growth::Skeleton>(scene::placed(h.tree->skeleton, h.scale, h.rotation_deg))});
@@ -168,8 +158,9 @@ StandingTree standing(const scene::HeroTree& hero, const Planting& planting) {
 
 class Planter {
  public:
-  Planter(const Recipe& recipe, Planting& planting, std::vector<std::string>& warnings, Progress* progress)
-      : recipe_(recipe), planting_(planting), warnings_(warnings), progress_(progress) {}
+  Planter(const Recipe& recipe, scene::Georeference& site, Planting& planting, std::vector<std::string>& warnings,
+          Progress* progress)
+      : recipe_(recipe), place_(site), planting_(planting), warnings_(warnings), progress_(progress) {}
 
   Result<void> plant(const PlantingRecipe& block) {
     const std::size_t first = trees.size();
@@ -209,6 +200,30 @@ class Planter {
         break;
       case PlantingKind::inventory:
         return plant_inventory(block);
+      case PlantingKind::trees:
+        return plant_exact(block);
+    }
+    return {};
+  }
+
+  // Trees as a document had them, ids and keys too.
+  Result<void> plant_exact(const PlantingRecipe& block) {
+    auto exact = read_exact_trees(block.file, recipe_.document.species);
+    if (!exact) return exact.error();
+    std::set<std::int32_t> ids;
+    std::set<std::uint64_t> keys;
+    for (const scene::Tree& tree : trees) ids.insert(tree.id), keys.insert(tree.key);
+    for (scene::Tree& tree : *exact) {
+      if (!ids.insert(tree.id).second || !keys.insert(tree.key).second)
+        return Error{fmt::format("{}: the id or key of tree {} is that of a tree planted before; put this planting first",
+                                 block.file.string(), tree.id)};
+      StandingTree stands =
+          distribution::standing_tree(tree.key, static_cast<std::uint32_t>(tree.species),
+                                      planting_.species()[tree.species], tree.at, tree.scale_width);
+      if (tree.trunk_diameter_m) stands.trunk_radius_m = 0.5f * *tree.trunk_diameter_m;
+      planting_.add(stands);
+      next_id_ = std::max(next_id_, tree.id + 1);
+      trees.push_back(std::move(tree));
     }
     return {};
   }
@@ -228,7 +243,8 @@ class Planter {
     const TreeOrder& order = block.order;
     for (std::size_t i = first; i < trees.size(); ++i) {
       scene::Tree& tree = trees[i];
-      if (tree.status == scene::TreeStatus::proposed) tree.status = order.status;
+      if (block.kind == PlantingKind::trees) break;
+      if (block.kind != PlantingKind::inventory) tree.status = order.status;
       if (tree.clear_stem_m == 0.0f) tree.clear_stem_m = order.clear_stem_m;
       if (order.form.clipped())
         scene::set_form(tree, *recipe_.document.species[tree.species], form_at(block, tree.at), tree.clear_stem_m);
@@ -273,7 +289,7 @@ class Planter {
 
   scene::Tree& add(const StandingTree& standing) {
     scene::Tree& tree = trees.emplace_back();
-    tree.id = static_cast<std::int32_t>(trees.size());
+    tree.id = next_id_++;
     tree.key = standing.key;
     tree.species = standing.species;
     tree.at = standing.at;
@@ -346,87 +362,54 @@ class Planter {
   }
 
   Result<void> plant_inventory(const PlantingRecipe& block) {
-    InventoryOptions options;
-    options.columns = block.columns;
-    options.south_west = block.south_west;
-    options.size_m = DVec2(recipe_.size_m);
-    auto inventory = read_inventory(block.file, options);
-    if (!inventory) return inventory.error();
-    const std::string file = block.file.string();
-    for (const std::string& note : inventory->notes) warnings_.push_back(fmt::format("{}: {}", file, note));
-    for (const std::string& line : problem_lines(inventory->problems, file)) warnings_.push_back(line);
-
-    const scene::Document& document = recipe_.document;
-    std::map<std::string, std::pair<std::size_t, std::size_t>> substitutions;  // name -> species, count
-    std::vector<scene::Tree> sized;
-    std::vector<StandingTree> standing;
-    for (std::size_t i = 0; i < inventory->trees.size(); ++i) {
-      const InventoryTree& row = inventory->trees[i];
-      const scene::SpeciesMatch match = scene::match_species(row.species, document.species, block.default_species);
-      const scene::Species& species = *document.species[match.species];
-      if (match.how != scene::NameMatch::exact) {
-        auto& [index, count] = substitutions[row.species];
-        index = match.species, ++count;
-      }
-      scene::Tree tree;
-      tree.key = distribution::tree_key(hash_text(block.name), i);
-      tree.species = match.species;
-      const Vec2 range = scale_range(block, match.species);
-      RandomStream stream(document.seed, tree.key, Purpose::scale);
-      tree.scale_height = tree.scale_width = stream.uniform(range.x, range.y);
-      if (row.height_m || row.trunk_diameter_m || row.crown_diameter_m)
-        scene::set_measured_size(tree, species, row.height_m, row.trunk_diameter_m, row.crown_diameter_m);
-      tree.inventory_name = row.species;
-      tree.inventory_id = row.id;
-      StandingTree stands =
-          distribution::standing_tree(tree.key, static_cast<std::uint32_t>(tree.species),
-                                      planting_.species()[tree.species], Vec2(row.plan), tree.scale_width);
-      if (tree.trunk_diameter_m) stands.trunk_radius_m = 0.5f * *tree.trunk_diameter_m;
-      sized.push_back(std::move(tree));
-      standing.push_back(stands);
-    }
-
-    for (const auto& moved : distribution::move_duplicates_apart(standing, recipe_.size_m))
-      warnings_.push_back(fmt::format("{}:{}: same place as line {}; moved from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
-                                      file, inventory->trees[moved.index].line, inventory->trees[moved.twin].line,
-                                      moved.from.x, moved.from.y, moved.to.x, moved.to.y));
-    for (const auto& [name, use] : substitutions)
-      warnings_.push_back(fmt::format("{}: '{}' is not a known species; {} trees are planted as {}", file,
-                                      name.empty() ? "(no name)" : name, use.second,
-                                      document.species[use.first]->name));
-    for (std::size_t i = 0; i < sized.size(); ++i) {
-      planting_.add(standing[i]);
-      sized[i].at = standing[i].at;
-      sized[i].id = static_cast<std::int32_t>(trees.size() + 1);
-      trees.push_back(std::move(sized[i]));
+    TreeImport import = block.import;
+    import.reading.site = place_;
+    import.reading.size_m = DVec2(recipe_.size_m);
+    import.status = block.order.status;
+    auto read = read_trees(block.file, import, recipe_.document.seed, recipe_.document.species, block.default_species);
+    if (!read) return read.error();
+    warnings_.insert(warnings_.end(), read->warnings.begin(), read->warnings.end());
+    if (read->place) adopt(*read->place);
+    for (std::size_t i = 0; i < read->trees.size(); ++i) {
+      planting_.add(read->standing[i]);
+      read->trees[i].id = next_id_++;
+      trees.push_back(std::move(read->trees[i]));
     }
     return {};
   }
 
-  Vec2 scale_range(const PlantingRecipe& block, std::size_t species) const {
-    for (const distribution::MixEntry& entry : block.mix)
-      if (entry.species == species && entry.scale_max > 0) return {entry.scale_min, entry.scale_max};
-    const distribution::PlantingRules& rules = recipe_.document.species[species]->planting;
-    return {rules.scale_min, rules.scale_max};
+  // A file that knows where it is tells the site, but for the sun's place where the recipe gives one.
+  void adopt(const scene::Georeference& place) {
+    const scene::Georeference nowhere;
+    const bool said = place_.latitude_deg != nowhere.latitude_deg || place_.longitude_deg != nowhere.longitude_deg;
+    place_.south_west = place.south_west;
+    place_.crs_wkt = place.crs_wkt;
+    if (!said) place_.latitude_deg = place.latitude_deg, place_.longitude_deg = place.longitude_deg;
   }
 
   const Recipe& recipe_;
+  scene::Georeference& place_;  // of the document
   Planting& planting_;
   std::vector<std::string>& warnings_;
+  std::int32_t next_id_ = 1;
   Progress* progress_;
 };
 
 }  // namespace
 
-Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
+Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
+  Recipe recipe = written;
   BuiltRecipe built;
   built.document = recipe.document;
   scene::Document& document = built.document;
 
   Stopwatch watch;
-  auto ground = make_ground(recipe, document.place, built.warnings);
+  auto ground = make_ground(recipe.ground, recipe.size_m, document.place, document.seed);
   if (!ground) return ground.error();
-  document.terrain = std::make_shared<const terrain::Terrain>(std::move(*ground));
+  built.warnings = std::move(ground->warnings);
+  recipe.size_m = ground->terrain.size_m();
+  document.place = ground->place;
+  document.terrain = std::make_shared<const terrain::Terrain>(std::move(ground->terrain));
   if (auto done = make_obstacles(recipe, document, built.warnings); !done)
     return Error{fmt::format("{}: {}", recipe.file.string(), done.error().message)};
   place_heroes(recipe, document);
@@ -437,7 +420,7 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
       Planting::make(*document.terrain, planting_species(document), recipe.interactions, 0.0f, barriers(document));
   if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
   for (const scene::HeroTree& hero : document.heroes) planting->add(standing(hero, *planting));
-  Planter planter(recipe, *planting, built.warnings, progress);
+  Planter planter(recipe, document.place, *planting, built.warnings, progress);
   for (const PlantingRecipe& block : recipe.plantings) {
     if (auto done = planter.plant(block); !done) return done.error();
     if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
@@ -457,7 +440,7 @@ Result<BuiltRecipe> build_document(const Recipe& recipe, Progress* progress) {
     auto place = [&](const Vec3& p) {
       const Vec2 plan{p.x, p.y};
       float ground_y = document.terrain->ground(plan);
-      if (document.terrain->water_level_m) ground_y = std::max(ground_y, *document.terrain->water_level_m);
+      if (const auto water = document.terrain->water_level(plan)) ground_y = std::max(ground_y, *water);
       return to_world(plan, ground_y + p.z);
     };
     document.cameras.push_back({camera.name, place(camera.eye), place(camera.target), camera.vertical_fov_deg});

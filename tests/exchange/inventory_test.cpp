@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "exchange/csv.h"
+#include "exchange/number_text.h"
 #include "scratch_folder.h"
 
 namespace bosquet::exchange {
@@ -118,7 +119,7 @@ TEST(Inventory, NamedColumnsStandBeforeGuessedOnes) {
   EXPECT_FLOAT_EQ(*inventory.trees[0].trunk_diameter_m, 0.2f);
   options.columns.species = "Gattung";
   EXPECT_EQ(refused("x,y,species\n1,2,a\n", options),
-            "trees.csv: there is no column \"Gattung\" for the species; the columns are x, y, species");
+            "trees.csv: there is no column \"Gattung\" for species; the columns are x, y, species");
 }
 
 TEST(Inventory, EveryBadRowIsNamedByItsLineAndTheGoodOnesStay) {
@@ -186,9 +187,10 @@ TEST(Inventory, PositionsAreMovedInDoubleBeforeAnythingIsRounded) {
 
 TEST(Inventory, FilesThatAreNoInventoriesAreRefusedWithTheReason) {
   EXPECT_EQ(refused(""), "trees.csv is empty: a header row and a row for each tree are needed");
-  EXPECT_NE(refused("a,b\n1,2\n").find("no columns for the position found among a, b; usual names are x_m and y_m"),
+  EXPECT_NE(refused("a,b\n1,2\n")
+                .find("no columns for the position found among a, b; usual names are x_m and y_m, or lon and lat"),
             std::string::npos);
-  EXPECT_NE(refused("lon,lat,species\n8,47,oak\n").find("degrees"), std::string::npos);
+  EXPECT_NE(refused("lon,y,species\n8,47,oak\n").find("no columns for the position"), std::string::npos);
   EXPECT_NE(refused(std::string_view("x,y\0,z", 6)).find("no text file"), std::string::npos);
   EXPECT_NE(refused("\xff\xfex\0y").find("UTF-16"), std::string::npos);
   const auto missing = read_inventory("/no/such/trees.csv");
@@ -223,6 +225,116 @@ TEST(Inventory, AnyTextIsReadOrRefusedButNeverHarmful) {
   }
 }
 
+TEST(Inventory, AnUnclosedQuoteCostsItsRowAlone) {
+  for (const char* text : {"x,y,species,note\n1,1,oak,\"fine\"\n2,2,\"oak,\n3,3,ash,\n4,4,\"elm\",\n",
+                           "x,y,species,note\n1,1,oak,\n2,2,\"oak,\n3,3,ash,\n4,4,elm,\n"}) {
+    const Inventory inventory = parsed(text);
+    ASSERT_EQ(inventory.trees.size(), 3u) << text;
+    EXPECT_EQ(inventory.trees[1].species, "ash");
+    EXPECT_EQ(inventory.trees[2].species, "elm");
+    ASSERT_EQ(inventory.problems.size(), 1u);
+    EXPECT_EQ(inventory.problems[0].line, 3);
+    EXPECT_EQ(inventory.problems[0].reason, "a quote is not closed");
+  }
+}
+
+TEST(Inventory, ColumnsAreFoundInGermanAndFrench) {
+  const Inventory german = parsed(
+      "Baumnummer;Rechtswert;Hochwert;Baumart;H\xc3\xb6he (m);Stammumfang (cm);Kronendurchmesser "
+      "(m);Planung;Kronenansatz\n"
+      "17;3,5;4;Stieleiche;12,5;125,66;8;zu f\xc3\xa4llen;2,5\n");
+  ASSERT_EQ(german.trees.size(), 1u);
+  const InventoryTree& a = german.trees[0];
+  EXPECT_EQ(a.id, "17");
+  EXPECT_EQ(a.plan, DVec2(3.5, 4));
+  EXPECT_FLOAT_EQ(a.height_m.value_or(0), 12.5f);
+  EXPECT_NEAR(a.trunk_diameter_m.value_or(0), 0.4f, 1e-4f);
+  EXPECT_FLOAT_EQ(a.crown_diameter_m.value_or(0), 8.0f);
+  EXPECT_EQ(a.status, scene::TreeStatus::to_remove);
+  EXPECT_FLOAT_EQ(a.clear_stem_m.value_or(0), 2.5f);
+
+  const Inventory french = parsed(
+      "Num\xc3\xa9ro,X,Y,Esp\xc3\xa8"
+      "ce,Hauteur (m),Circonf\xc3\xa9rence (cm),Diam\xc3\xa8tre couronne (m),Statut,\xc3\x82ge (ans)\n"
+      "3,1,2,Tilleul,15,94.2478,6,prot\xc3\xa9g\xc3\xa9,60\n");
+  ASSERT_EQ(french.trees.size(), 1u);
+  const InventoryTree& b = french.trees[0];
+  EXPECT_EQ(b.id, "3");
+  EXPECT_EQ(b.species, "Tilleul");
+  EXPECT_FLOAT_EQ(b.height_m.value_or(0), 15.0f);
+  EXPECT_NEAR(b.trunk_diameter_m.value_or(0), 0.3f, 1e-5f);
+  EXPECT_FLOAT_EQ(b.crown_diameter_m.value_or(0), 6.0f);
+  EXPECT_EQ(b.status, scene::TreeStatus::to_protect);
+  EXPECT_FLOAT_EQ(b.age_years.value_or(0), 60.0f);
+}
+
+TEST(Inventory, GenusSpeciesAndCultivarMayStandInColumnsOfTheirOwn) {
+  const Inventory inventory =
+      parsed("x,y,Gattung,Art,Sorte\n1,1,Acer,platanoides,Globosum\n2,2,Tilia,,\n3,3,Quercus,Quercus robur,\n");
+  ASSERT_EQ(inventory.trees.size(), 3u);
+  EXPECT_EQ(inventory.trees[0].species, "Acer platanoides 'Globosum'");
+  EXPECT_EQ(inventory.trees[1].species, "Tilia");
+  EXPECT_EQ(inventory.trees[2].species, "Quercus robur");
+}
+
+TEST(Inventory, UnitsMayBeSaidOrStandBehindTheNumber) {
+  InventoryOptions options;
+  options.units = {.position = "mm", .height = "ft", .trunk_diameter = "in", .crown_diameter = "", .clear_stem = ""};
+  const Inventory said = parsed("x,y,height,dbh_cm\n1500,2500,10,10\n", options);
+  EXPECT_EQ(said.trees.at(0).plan, DVec2(1.5, 2.5));
+  EXPECT_NEAR(*said.trees[0].height_m, 3.048f, 1e-5f);
+  EXPECT_NEAR(*said.trees[0].trunk_diameter_m, 0.254f, 1e-6f);
+
+  const Inventory behind = parsed("x,y,height,dbh\n1,1,12 m,40 cm\n2,2,30',16\"\n3,3,9,0.3m\n4,4,8 furlongs,\n");
+  ASSERT_EQ(behind.trees.size(), 4u);
+  EXPECT_FLOAT_EQ(*behind.trees[0].height_m, 12.0f);
+  EXPECT_FLOAT_EQ(*behind.trees[0].trunk_diameter_m, 0.4f);
+  EXPECT_NEAR(*behind.trees[1].height_m, 9.144f, 1e-5f);
+  EXPECT_NEAR(*behind.trees[1].trunk_diameter_m, 0.4064f, 1e-6f);
+  EXPECT_FLOAT_EQ(*behind.trees[2].trunk_diameter_m, 0.3f);
+  ASSERT_EQ(behind.problems.size(), 1u);
+  EXPECT_EQ(behind.problems[0].reason, "height is \"8 furlongs\", not a number");
+
+  options.units.height = "furlong";
+  EXPECT_NE(refused("x,y,height\n1,1,2\n", options).find("none of m, cm, mm, in, ft"), std::string::npos);
+}
+
+TEST(Inventory, AClearStemAsHighAsItsTreeAndAnUnknownStatusAreReported) {
+  const Inventory inventory = parsed("x,y,height_m,clear_stem_m,status,age\n1,1,8,9,dreamt of,-4\n2,2,8,0,,\n");
+  ASSERT_EQ(inventory.trees.size(), 2u);
+  EXPECT_FALSE(inventory.trees[0].clear_stem_m || inventory.trees[0].status || inventory.trees[0].age_years);
+  EXPECT_FALSE(inventory.trees[1].clear_stem_m);
+  ASSERT_EQ(inventory.problems.size(), 3u);
+  for (const RowProblem& problem : inventory.problems) EXPECT_TRUE(problem.line == 2 && problem.kept);
+}
+
+TEST(NumberText, MarksOfDecimalsAndThousandsAreToldApart) {
+  const auto value = [](std::string_view text, bool comma = false) {
+    const NumberText number = read_number(text, comma);
+    return number.reading == NumberReading::number ? number.value : std::nan("");
+  };
+  EXPECT_EQ(value("12.5"), 12.5);
+  EXPECT_EQ(value("12,5"), 12.5);
+  EXPECT_EQ(value("12,5", true), 12.5);
+  EXPECT_EQ(value("1,234", true), 1.234);
+  EXPECT_TRUE(std::isnan(value("1,234")));  // 1234 or 1.234: nobody knows
+  EXPECT_EQ(value("1,234.5"), 1234.5);
+  EXPECT_EQ(value("1.234,5", true), 1234.5);
+  EXPECT_EQ(value("5'401'234.25"), 5401234.25);
+  EXPECT_EQ(value("5 401 234,25", true), 5401234.25);
+  EXPECT_EQ(value("5\xc2\xa0"
+                  "401\xc2\xa0"
+                  "234,25",
+                  true),
+            5401234.25);
+  EXPECT_EQ(value("3.512.345"), 3512345);
+  EXPECT_EQ(value("-1e3"), -1000);
+  for (const char* text : {"1.2.3", "1,23,456", "12 34", "abc", "1e999", "nan m", "0x10", "--5", ",", ".", "5 6 7"})
+    EXPECT_TRUE(std::isnan(value(text))) << text;
+  for (const char* text : {"", "NA", "n/a", "?", "-", "unbekannt"})
+    EXPECT_EQ(read_number(text, false).reading, NumberReading::missing) << text;
+}
+
 TEST(Csv, EscapedQuotesAndEmptyFieldsComeOutAsWritten) {
   CsvReader reader("a,\"b \"\"c\"\"\",,\n\"\",x\n\"open", ',');
   std::vector<std::string> fields;
@@ -234,6 +346,7 @@ TEST(Csv, EscapedQuotesAndEmptyFieldsComeOutAsWritten) {
   ASSERT_TRUE(reader.next(fields));
   EXPECT_EQ(fields, (std::vector<std::string>{"open"}));
   EXPECT_EQ(reader.line(), 3);
+  EXPECT_TRUE(reader.unclosed_quote());
   EXPECT_FALSE(reader.next(fields));
 }
 
