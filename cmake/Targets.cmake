@@ -13,6 +13,11 @@ if(BOSQUET_SANITIZE)
   target_link_options(bosquet_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(BOSQUET_TSAN)
+  target_compile_options(bosquet_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(bosquet_options INTERFACE -fsanitize=thread)
+endif()
+
 find_program(BOSQUET_CCACHE ccache)
 if(BOSQUET_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${BOSQUET_CCACHE}")

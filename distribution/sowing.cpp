@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "core/scalar.h"
 
@@ -220,48 +221,91 @@ std::size_t count_to_density(Planting& planting, const Sowing& what, const Regio
   return whole > standing ? whole - standing : 0;
 }
 
-Sown sow_stroke(Planting& planting, const Sowing& what, const PlantBrush& brush, std::span<const BrushEvent> events,
-                Progress* progress) {
-  Sown sown;
-  if (events.empty()) return sown;
-  // Trees due, in 2^-32; the first is due when the brush touches the ground.
-  constexpr std::uint64_t kOneTree = std::uint64_t{1} << 32;
-  const double a_second = static_cast<double>(brush.rate) * brush.strength * brush.radius_m * brush.radius_m;
-  const auto a_tick = static_cast<std::uint64_t>(a_second / kTicksPerSecond * static_cast<double>(kOneTree));
-  std::uint64_t due = brush.strength > 0.0f ? kOneTree : 0;
+class StrokeSower::Stroke {
+ public:
+  Stroke(Planting& planting, Sowing what, const PlantBrush& brush)
+      : planting_(planting), what_(std::move(what)), brush_(brush), sower_(planting, what_) {
+    const double a_second = static_cast<double>(brush.rate) * brush.strength * brush.radius_m * brush.radius_m;
+    a_tick_ = static_cast<std::uint64_t>(a_second / kTicksPerSecond * static_cast<double>(kOneTree));
+    due_ = brush.strength > 0.0f ? kOneTree : 0;
+  }
 
-  Sower sower(planting, what);
-  std::size_t piece = 0;
-  for (int tick = events.front().tick; tick <= events.back().tick; ++tick, due += a_tick) {
-    if (due < kOneTree) continue;
-    while (piece + 1 < events.size() && events[piece + 1].tick <= tick) ++piece;
-    Vec2 centre = events[piece].at;
-    if (piece + 1 < events.size() && events[piece].tick < tick) {
-      const BrushEvent &from = events[piece], &to = events[piece + 1];
-      const float share = static_cast<float>(tick - from.tick) / static_cast<float>(to.tick - from.tick);
-      centre = from.at + (to.at - from.at) * share;
-    }
-    centre = {std::floor(centre.x / kBrushStep_m + 0.5f) * kBrushStep_m,
-              std::floor(centre.y / kBrushStep_m + 0.5f) * kBrushStep_m};
-    const Region where = Disc{centre, brush.radius_m};
-    const auto mask = mask_of(planting, what, where);
-    sower.new_region();
-    for (; due >= kOneTree; due -= kOneTree) {
-      if (progress && progress->cancelled()) {
-        sown.cancelled = true;
-        return sown;
+  void add(std::span<const BrushEvent> events) {
+    if (events_.empty() && !events.empty()) tick_ = events.front().tick;
+    events_.insert(events_.end(), events.begin(), events.end());
+  }
+
+  /// Up to the last event's time, and that too when the stroke has ended: more events of that time may come.
+  void plant(bool ended, Progress* progress) {
+    if (events_.empty()) return;
+    const int end = events_.back().tick + (ended ? 1 : 0);
+    for (; tick_ < end; ++tick_, due_ += a_tick_) {
+      if (due_ < kOneTree) continue;
+      const Region where = Disc{centre(), brush_.radius_m};
+      const auto mask = mask_of(planting_, what_, where);
+      sower_.new_region();
+      for (; due_ >= kOneTree; due_ -= kOneTree) {
+        if (progress && progress->cancelled()) {
+          sown.cancelled = true;
+          return;
+        }
+        const std::uint64_t index = what_.first_index + sown.asked++;
+        const auto tree = mask ? sower_.plant(index, where, *mask) : std::nullopt;
+        if (tree) {
+          sown.trees.push_back(*tree);
+        } else {
+          sown.no_room = true;
+        }
+        if (progress) progress->advance();
       }
-      const std::uint64_t index = what.first_index + sown.asked++;
-      const auto tree = mask ? sower.plant(index, where, *mask) : std::nullopt;
-      if (tree) {
-        sown.trees.push_back(*tree);
-      } else {
-        sown.no_room = true;
-      }
-      if (progress) progress->advance();
     }
   }
-  return sown;
+
+  Sown sown;
+
+ private:
+  // Trees due are counted in 2^-32; the first is due when the brush touches the ground.
+  static constexpr std::uint64_t kOneTree = std::uint64_t{1} << 32;
+
+  Vec2 centre() {
+    while (piece_ + 1 < events_.size() && events_[piece_ + 1].tick <= tick_) ++piece_;
+    Vec2 at = events_[piece_].at;
+    if (piece_ + 1 < events_.size() && events_[piece_].tick < tick_) {
+      const BrushEvent &from = events_[piece_], &to = events_[piece_ + 1];
+      const float share = static_cast<float>(tick_ - from.tick) / static_cast<float>(to.tick - from.tick);
+      at = from.at + (to.at - from.at) * share;
+    }
+    return {std::floor(at.x / kBrushStep_m + 0.5f) * kBrushStep_m,
+            std::floor(at.y / kBrushStep_m + 0.5f) * kBrushStep_m};
+  }
+
+  Planting& planting_;
+  const Sowing what_;
+  const PlantBrush brush_;
+  Sower sower_;
+  std::uint64_t a_tick_ = 0, due_ = 0;
+  std::vector<BrushEvent> events_;
+  std::size_t piece_ = 0;
+  int tick_ = 0;
+};
+
+StrokeSower::StrokeSower(Planting& planting, Sowing what, const PlantBrush& brush)
+    : stroke_(std::make_unique<Stroke>(planting, std::move(what), brush)) {}
+StrokeSower::~StrokeSower() = default;
+
+void StrokeSower::extend(std::span<const BrushEvent> events, Progress* progress) {
+  stroke_->add(events);
+  stroke_->plant(false, progress);
+}
+void StrokeSower::finish(Progress* progress) { stroke_->plant(true, progress); }
+const Sown& StrokeSower::sown() const { return stroke_->sown; }
+
+Sown sow_stroke(Planting& planting, const Sowing& what, const PlantBrush& brush, std::span<const BrushEvent> events,
+                Progress* progress) {
+  StrokeSower sower(planting, what, brush);
+  sower.extend(events, progress);
+  if (!sower.sown().cancelled) sower.finish(progress);
+  return sower.sown();
 }
 
 std::vector<BrushEvent> steady_stroke(std::span<const Vec2> points, float seconds) {

@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -89,6 +90,27 @@ void describe(P& p, Visitor& visit) {
   visit(Real{"rate", "trees/m2/s", 0.0001, 100, "Trees a second at full strength, for each square metre of radius^2"},
         p.rate);
 }
+
+/// A stroke while it is drawn. However its events come, the trees are those that sow_stroke plants of all of them.
+class StrokeSower {
+ public:
+  /// Nothing else may change the planting until the sower goes.
+  StrokeSower(Planting& planting, Sowing what, const PlantBrush& brush);
+  ~StrokeSower();
+  StrokeSower(const StrokeSower&) = delete;
+  StrokeSower& operator=(const StrokeSower&) = delete;
+
+  /// Plants what is due before the time of the last event. Events follow those of earlier calls.
+  void extend(std::span<const BrushEvent> events, Progress* progress = nullptr);
+  /// Plants what is due at the time of the last event: the stroke has ended.
+  void finish(Progress* progress = nullptr);
+
+  const Sown& sown() const;  ///< so far
+
+ private:
+  class Stroke;
+  std::unique_ptr<Stroke> stroke_;
+};
 
 /// Plants along a recorded stroke. Where there is no room trees are left out, and the stroke goes on.
 Sown sow_stroke(Planting& planting, const Sowing& what, const PlantBrush& brush, std::span<const BrushEvent> events,

@@ -47,12 +47,23 @@ std::string named(std::string_view name, std::size_t count) {
   return fmt::format(fmt::runtime(name), trees_in_words(count));
 }
 
-bool stands_badly(const Document& document, const Tree& tree) {
-  const terrain::Terrain& ground = *document.terrain;
-  if (!terrain::on_site(ground, tree.at) || ground.excluded(tree.at) || ground.under_water(tree.at)) return true;
-  return std::any_of(document.obstacles.begin(), document.obstacles.end(),
-                     [&](const Obstacle& o) { return o.outline && o.outline->contains(tree.at); });
-}
+// Where trees may not stand: off the site, on exclusions, in water, inside buildings.
+class BadGround {
+ public:
+  explicit BadGround(const Document& document) : ground_(*document.terrain) {
+    for (const Obstacle& o : document.obstacles)
+      if (o.outline) buildings_.push_back({o.outline->bounds(), o.outline.get()});
+  }
+  bool holds(Vec2 at) const {
+    if (!terrain::on_site(ground_, at) || ground_.excluded(at) || ground_.under_water(at)) return true;
+    return std::any_of(buildings_.begin(), buildings_.end(),
+                       [&](const auto& b) { return b.first.contains(at) && b.second->contains(at); });
+  }
+
+ private:
+  const terrain::Terrain& ground_;
+  std::vector<std::pair<Box2, const Polygon*>> buildings_;
+};
 
 std::string label(const Document& document, const Tree& tree) {
   return fmt::format("tree {} ({})", tree.id, document.species_of(tree).name);
@@ -63,9 +74,10 @@ std::string label(const Document& document, const Tree& tree) {
 std::string trees_in_words(std::size_t count) { return count == 1 ? "a tree" : fmt::format("{} trees", count); }
 
 std::vector<std::int32_t> displaced_trees(const Document& document) {
+  const BadGround bad(document);
   std::vector<std::int32_t> ids;
   for (const Tree& tree : *document.trees)
-    if (stands_badly(document, tree)) ids.push_back(tree.id);
+    if (bad.holds(tree.at)) ids.push_back(tree.id);
   return ids;
 }
 
@@ -103,6 +115,7 @@ Result<Edited> move_trees(const Document& document, Selection selection, Vec2 by
   std::vector<Tree> moved;
   std::size_t off_site = 0;
   std::vector<std::int32_t> stay;
+  const BadGround bad(document);
   for (const Tree* tree : free_trees(document, selection, edited)) {
     Tree now = *tree;
     now.at += by;
@@ -111,7 +124,7 @@ Result<Edited> move_trees(const Document& document, Selection selection, Vec2 by
       continue;
     }
     if (now.at == tree->at) continue;
-    if (stands_badly(document, now) && !stands_badly(document, *tree)) edited.displaced.push_back(now.id);
+    if (bad.holds(now.at) && !bad.holds(tree->at)) edited.displaced.push_back(now.id);
     moved.push_back(std::move(now));
   }
   note_locked(edited);

@@ -42,9 +42,20 @@ class HashCache {
     bytes_ += bytes;
   }
 
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    entries_.clear(), by_key_.clear();
+    bytes_ = 0;
+  }
+
+  std::size_t most_bytes() const { return most_bytes_; }
   std::size_t bytes() const {
     const std::lock_guard lock(mutex_);
     return bytes_;
+  }
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.size();
   }
 
  private:

@@ -45,9 +45,14 @@ std::uint64_t look_hash(const Species& species) {
   return hasher.digest();
 }
 
+// So many trees are grown of every snapshot that gets its turn, however fast the next one comes: what somebody drags
+// goes along.
+constexpr std::size_t kAtLeast = 4;
+
 /// What is kept of a tree from snapshot to snapshot.
 struct Record {
   bool dirty = true;                   ///< it, or something that it hangs on, may be another
+  bool edited = true;                  ///< somebody changed the tree itself, and has not seen it since
   std::uint64_t inputs = 0, mesh = 0;  ///< hashes that grown and meshes were made from; 0 none
   std::size_t triangles = 0;
   GrownTree grown;
@@ -201,8 +206,8 @@ struct Pipeline::State {
     }
     const Trees& trees = *now.trees;
     for (std::size_t i : touched) records[trees[i].id].dirty = true;
-    for (std::int32_t id : by.added) records[id].dirty = true;
-    for (std::int32_t id : by.changed) records[id].dirty = true;
+    for (const std::vector<std::int32_t>* ids : {&by.added, &by.changed})
+      for (std::int32_t id : *ids) records[id].dirty = records[id].edited = true;
     for (std::size_t s : by.species)
       for (const Tree& tree : trees)
         if (tree.species == s) records[tree.id].dirty = true;
@@ -226,6 +231,7 @@ struct Pipeline::State {
     const Tree* tree;
     Record* record;
     Vec3 base;
+    float distance;
     std::size_t triangles;
   };
 
@@ -236,7 +242,6 @@ struct Pipeline::State {
       there = around;
     }
     std::vector<Task> tasks;
-    std::vector<float> nearness;
     std::size_t index = 0;
     for (const Tree& tree : *document->trees) {
       Record& record = records[tree.id];
@@ -245,12 +250,14 @@ struct Pipeline::State {
       const float distance = glm::length(base + 0.5f * height * kUp - job.view.eye);
       const std::size_t triangles = triangles_seen(height, distance);
       if (job.options.meshes && record.triangles != triangles) record.dirty = true;
-      if (record.dirty) {
-        tasks.push_back({index, &tree, &record, base, triangles});
-        nearness.push_back(-distance);
-      }
+      if (record.dirty) tasks.push_back({index, &tree, &record, base, distance, triangles});
       ++index;
     }
+    std::stable_sort(tasks.begin(), tasks.end(), [](const Task& a, const Task& b) {
+      return a.record->edited != b.record->edited ? a.record->edited : a.distance < b.distance;
+    });
+    std::vector<float> order(tasks.size());
+    for (std::size_t n = 0; n < order.size(); ++n) order[n] = -static_cast<float>(n);
     std::vector<std::uint64_t> look(document->species.size());
     decltype(looks) kept;
     for (std::size_t s = 0; s < look.size(); ++s) {
@@ -261,8 +268,8 @@ struct Pipeline::State {
     looks = std::move(kept);
 
     progress.begin("trees", tasks.size());
-    parallel_dearest_first(nearness, [&](std::size_t n) {
-      if (superseded(job)) return;
+    parallel_dearest_first(order, [&](std::size_t n) {
+      if (progress.cancelled() || (n >= kAtLeast && superseded(job))) return;
       const Task& task = tasks[n];
       if (grow_one(job, task, *there, look[task.tree->species])) progress.advance();
     });
@@ -287,7 +294,7 @@ struct Pipeline::State {
       make_meshes(tree, task, record, look);
     else
       record.meshes = nullptr;
-    record.dirty = false;
+    record.dirty = record.edited = false;
 
     FinishedTree told;
     told.id = tree.id;

@@ -1,11 +1,11 @@
 // Pipeline: from snapshots of a document to its grown trees and their meshes, in the background.
 //
 // Model     one worker takes the newest snapshot, brings the surroundings of its trees up to date (surroundings.h), and
-//           grows and meshes the trees that this touched, nearest to the view first and in parallel; whoever draws takes
-//           what is finished whenever it likes and never waits
+//           grows and meshes the trees that this touched, in parallel, the edited ones first, then those nearest to the
+//           view; whoever draws takes what is finished whenever it likes and never waits
 // Decision  a newer snapshot does not break off a tree that is growing, since its growth may be wanted still and would be
-//           lost again and again while somebody drags; no more trees are begun, and the newer snapshot takes over. So a
-//           snapshot that never gets its turn is skipped
+//           lost again and again while somebody drags; beyond the first few no more trees are begun, and the newer
+//           snapshot takes over. A snapshot that never gets its turn is skipped
 // Decision  everything derived is found again by a hash of what it was made from: skeletons in a SkeletonCache, meshes in
 //           a cache of their own. Both keep to their share of memory; what was used longest ago goes first
 // Decision  a mesh has as many triangles as the view needs, in levels: kNearestTriangles for a tree that is as high as

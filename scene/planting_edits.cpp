@@ -138,6 +138,29 @@ Result<Edited> plant_stroke(const Document& document, PlantingGround& ground, co
   return edited;
 }
 
+Result<LivePlanting> LivePlanting::begin(const Document& document, PlantingGround& ground,
+                                         const distribution::PlantBrush& brush) {
+  auto planting = prepared(document, ground);
+  if (!planting) return planting.error();
+  LivePlanting live(document, ground);
+  live.sower_ = std::make_unique<distribution::StrokeSower>(**planting, sowing(document), brush);
+  return live;
+}
+
+Edited LivePlanting::extend(std::span<const distribution::BrushEvent> events) {
+  sower_->extend(events);
+  return scene::finish(before_, *ground_, sower_->sown().trees);
+}
+
+Edited LivePlanting::finish() {
+  sower_->finish();
+  Edited edited = scene::finish(before_, *ground_, sower_->sown().trees);
+  if (sower_->sown().no_room)
+    edited.notes.push_back(
+        fmt::format("room for {} of {}", sower_->sown().trees.size(), trees_in_words(sower_->sown().asked)));
+  return edited;
+}
+
 Result<Edited> plant_places(const Document& document, PlantingGround& ground, std::span<const Vec2> places,
                             float jitter_m, std::string_view what) {
   auto planting = prepared(document, ground);

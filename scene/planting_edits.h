@@ -9,6 +9,7 @@
 // Errors    rules that cannot be met, by name
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,6 +47,23 @@ Result<Edited> plant_tree(const Document& document, PlantingGround& ground, std:
 /// Along a recorded stroke of the brush.
 Result<Edited> plant_stroke(const Document& document, PlantingGround& ground, const distribution::PlantBrush& brush,
                             std::span<const distribution::BrushEvent> events, Progress* progress = nullptr);
+
+/// Planting along a stroke while it is drawn: each edit is that of plant_stroke for the events so far, from the document
+/// that the stroke began with, and costs what its new events do. The ground is its own until it goes.
+class LivePlanting {
+ public:
+  static Result<LivePlanting> begin(const Document& document, PlantingGround& ground,
+                                    const distribution::PlantBrush& brush);
+
+  Edited extend(std::span<const distribution::BrushEvent> events);
+  Edited finish();
+
+ private:
+  LivePlanting(const Document& document, PlantingGround& ground) : before_(document), ground_(&ground) {}
+  Document before_;
+  PlantingGround* ground_;
+  std::unique_ptr<distribution::StrokeSower> sower_;
+};
 
 /// At given places, as rows and grids make them; `what` names them ("row").
 Result<Edited> plant_places(const Document& document, PlantingGround& ground, std::span<const Vec2> places,

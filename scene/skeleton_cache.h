@@ -13,12 +13,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <list>
 #include <memory>
-#include <mutex>
-#include <unordered_map>
 
 #include "growth/skeleton.h"
+#include "scene/hash_cache.h"
 
 namespace bosquet::scene {
 
@@ -26,32 +24,22 @@ class SkeletonCache {
  public:
   static constexpr std::size_t kDefaultBytes = std::size_t{512} << 20;  ///< some 10 million internodes
 
-  explicit SkeletonCache(std::size_t most_bytes = kDefaultBytes) : most_bytes_(most_bytes) {}
+  explicit SkeletonCache(std::size_t most_bytes = kDefaultBytes) : skeletons_(most_bytes) {}
 
   /// The skeleton with this key, or null. It counts as used now.
-  std::shared_ptr<const growth::Skeleton> find(std::uint64_t key);
+  std::shared_ptr<const growth::Skeleton> find(std::uint64_t key) { return skeletons_.find(key); }
 
   /// Keeps a skeleton under its key; one that is there already stays.
   void insert(std::uint64_t key, std::shared_ptr<const growth::Skeleton> skeleton);
 
-  void clear();
+  void clear() { skeletons_.clear(); }
 
-  std::size_t most_bytes() const { return most_bytes_; }
-  std::size_t bytes() const;
-  std::size_t size() const;
+  std::size_t most_bytes() const { return skeletons_.most_bytes(); }
+  std::size_t bytes() const { return skeletons_.bytes(); }
+  std::size_t size() const { return skeletons_.size(); }
 
  private:
-  struct Entry {
-    std::uint64_t key;
-    std::shared_ptr<const growth::Skeleton> skeleton;
-    std::size_t bytes;
-  };
-
-  mutable std::mutex mutex_;
-  const std::size_t most_bytes_;
-  std::size_t bytes_ = 0;
-  std::list<Entry> entries_;  ///< the one used last stands first
-  std::unordered_map<std::uint64_t, std::list<Entry>::iterator> by_key_;
+  HashCache<growth::Skeleton> skeletons_;
 };
 
 }  // namespace bosquet::scene

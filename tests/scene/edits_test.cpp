@@ -127,6 +127,24 @@ TEST(Edits, PaintingTheSameTwiceGivesTheSameTreesWhateverTheGroundWasAskedBefore
   EXPECT_NE(next->document.trees->find(next->trees[0])->key, one->document.trees->find(one->trees[0])->key);
 }
 
+TEST(Edits, AStrokePaintedFrameByFrameIsTheStrokePaintedAtOnce) {
+  const Document before = meadow();
+  const auto events = distribution::steady_stroke(std::vector<Vec2>{{5, 30}, {35, 30}, {35, 10}, {20, 20}}, 4.0f);
+  const distribution::PlantBrush brush;
+  PlantingGround ground;
+  const auto whole = plant_stroke(before, ground, brush, events);
+  ASSERT_TRUE(whole);
+  auto live = LivePlanting::begin(before, ground, brush);
+  ASSERT_TRUE(live);
+  std::size_t shown = 0;
+  for (const distribution::BrushEvent& event : events) {
+    const Edited so_far = live->extend({&event, 1});
+    EXPECT_GE(so_far.trees.size(), shown);
+    shown = so_far.trees.size();
+  }
+  EXPECT_EQ(live->finish().document.trees->to_vector(), whole->document.trees->to_vector());
+}
+
 TEST(Edits, OneTreeIsPlantedWhereItMayStand) {
   const Document before = meadow();
   PlantingGround ground;
