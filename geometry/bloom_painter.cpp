@@ -269,7 +269,7 @@ float bunch_half_width_m(const Bloom& b) {
       return 1.55f * size;
     case BloomForm::drupes:
     case BloomForm::nuts:
-      return 1.5f * size;
+      return 1.75f * size;
     case BloomForm::corymb:
     case BloomForm::tuft:
       return head_radius(b) + size;
