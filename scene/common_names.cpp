@@ -88,7 +88,7 @@ std::string_view conifer_words() {
   return "pine;spruce;fir;larch;cedar;juniper;yew;hemlock;redwood;sequoia;conifer;softwood;abies;larix;cedrus;"
          "juniperus;"
          "pseudotsuga;taxus;thuja;tsuga;chamaecyparis;taxodium;sequoiadendron;metasequoia;cupressocyparis;calocedrus;"
-         "cryptomeria;pinus;picea;araucaria;sapin;meleze;cedre;genevrier;if;conifere;resineux;douglasie;baldcypress";
+         "cryptomeria;pinus;picea;araucaria;sapin;meleze;cedre;genevrier;if;conifere;resineux;douglasie";
 }
 
 std::string_view conifer_compounds() {

@@ -122,9 +122,16 @@ std::optional<std::size_t> by_beginning(std::string_view text, Known known) {
 
 // Botanical and English words come before German and French ones: "pin oak" is no pine.
 std::optional<std::size_t> by_genus(const std::vector<std::string>& words, Known known) {
-  for (std::size_t i = 0; i < known.size(); ++i)
-    for (const std::string& genus : known[i]->genus_words)
-      if (!known[i]->derived && ends_a_word(words, folded(genus))) return i;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i]->derived) continue;
+    // The genus itself ends no compound: Carpinus is no pine.
+    const std::vector<std::string> botanical = words_of(known[i]->botanical_name);
+    for (const std::string& word : known[i]->genus_words) {
+      const std::string genus = folded(word);
+      const bool itself = !botanical.empty() && genus == botanical.front();
+      if (itself ? is_a_word(words, genus) : ends_a_word(words, genus)) return i;
+    }
+  }
   for (std::size_t i = 0; i < known.size(); ++i)
     if (const CommonNames* names = names_of(*known[i]); names && !known[i]->derived)
       if (any_of_list(names->compounds, [&](std::string_view w) { return ends_a_word(words, w); })) return i;
@@ -155,7 +162,9 @@ SpeciesMatch match(std::string_view name, Known known, std::size_t fallback, con
       any_of_list(misleading_names(), [&](std::string_view other) { return text.find(other) != std::string::npos; });
   if (!misleading)
     if (const auto genus = by_genus(words, known)) return {*genus, NameMatch::genus};
-  if (names_conifer(words))
+  // A cypress that is none of ours is a conifer all the same.
+  const bool cypress = ends_a_word(words, "cypress") || ends_a_word(words, "zypresse") || is_a_word(words, "cypres");
+  if (cypress || names_conifer(words))
     for (std::size_t i = 0; i < known.size(); ++i)
       if (!known[i]->derived && names_conifer(words_of(known[i]->name))) return {i, NameMatch::leaf_type};
   return {fallback, NameMatch::fallback};

@@ -133,6 +133,7 @@ TEST(SpeciesNames, AnotherSpeciesOfAGenusIsReportedAsSuch) {
                                                     {"Schwarzkiefer", "scots_pine"},
                                                     {"Pin noir", "scots_pine"},
                                                     {"Populus nigra", "lombardy_poplar"},
+                                                    {"black poplar", "lombardy_poplar"},
                                                     {"Silber-Weide", "weeping_willow"},
                                                     {"Baumhasel", "common_hazel"},
                                                     {"Tilia x europaea", "small_leaved_lime"}};
