@@ -30,6 +30,7 @@ Result<void> write_report(const std::filesystem::path& path, const Report& repor
   json["triangles"] = report.triangles;
   json["bytes"] = nlohmann::ordered_json::object();
   for (const auto& [output, bytes] : report.bytes) json["bytes"][output] = bytes;
+  if (!report.required_extensions.empty()) json["required_extensions"] = report.required_extensions;
   json["threads"] = report.threads;
   json["seed"] = report.seed;
   json["peak_rss_mb"] = peak_rss_mb();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace bosquet::cli {
 
 struct Report {
   std::size_t trees = 0, internodes = 0, leaves = 0, voxels = 0, triangles = 0;
-  std::vector<std::pair<std::string, std::uint64_t>> bytes;  ///< by output
+  std::vector<std::pair<std::string, std::uint64_t>> bytes;               ///< by output
+  std::map<std::string, std::vector<std::string>> required_extensions;  ///< of glTF outputs that need any
   int threads = 1;                                           ///< that really worked
   std::uint64_t seed = 0;
   std::uint64_t skeleton_digest = 0;

@@ -12,6 +12,7 @@
 #include "geometry/ground_mesh.h"
 #include "growth/radii.h"
 #include "scene/materials.h"
+#include "scene/tree_parts.h"
 
 namespace bosquet::scene {
 namespace {
@@ -99,7 +100,7 @@ struct Drawn {
   std::size_t species = 0;
   std::uint64_t key = 0;
   Vec3 base{0.0f};
-  float height_m = 0;
+  float height_m = 0, crown_m = 0;
   Extras extras;
 };
 
@@ -111,11 +112,13 @@ std::vector<Drawn> drawn_trees(const GrownScene& scene) {
     const Tree& tree = (*document.trees)[i];
     const GrownTree& grown = scene.trees[i];
     all.push_back({fmt::format("{}-{}", document.species_of(tree).name, tree.id), grown.skeleton.get(), grown.season,
-                   tree.species, tree.key, base(tree.at), grown.measures.height_m, tree_extras(document, tree, grown)});
+                   tree.species, tree.key, base(tree.at), grown.measures.height_m, grown.measures.crown_diameter_m,
+                   tree_extras(document, tree, grown)});
   }
   for (const HeroTree& hero : document.heroes) {
-    float height = 0;
-    for (const Vec3& p : hero.skeleton->distal) height = std::max(height, p.y);
+    Box3 box;
+    for (const Vec3& p : hero.skeleton->distal) box.add(p);
+    const float height = std::max(0.0f, box.high.y);
     const Species& species = *document.species[hero.species];
     all.push_back({hero.name,
                    hero.skeleton.get(),
@@ -124,6 +127,7 @@ std::vector<Drawn> drawn_trees(const GrownScene& scene) {
                    hero.key,
                    base(hero.at),
                    height,
+                   0.5f * (box.size().x + box.size().z),
                    {{"species", species.name},
                     {"botanical_name", species.botanical_name},
                     {"hero_tree", hero.name},
@@ -144,6 +148,12 @@ Extras scene_extras(const Document& document) {
   return extras;
 }
 
+std::size_t triangles(const std::vector<TriangleMesh>& meshes) {
+  std::size_t sum = 0;
+  for (const TriangleMesh& mesh : meshes) sum += mesh.triangles();
+  return sum;
+}
+
 Node mesh_node(std::string name, TriangleMesh mesh, std::size_t material) {
   Node node;
   node.name = std::move(name);
@@ -160,7 +170,7 @@ std::vector<std::size_t> divide_budget(const std::vector<std::size_t>& need, con
   const double even = kEvenShare * static_cast<double>(budget) / static_cast<double>(need.size());
   auto share = [&](double c, std::size_t i) {
     const auto triangles = static_cast<std::size_t>(even + c * static_cast<double>(weight[i]));
-    return std::min(need[i], std::max(geometry::kLeastTreeTriangles, triangles));
+    return std::min(need[i], std::max(geometry::kTwoCardTriangles, triangles));
   };
   auto sum = [&](double c) {
     std::size_t total = 0;
@@ -196,12 +206,33 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
         static_cast<std::size_t>(kGroundShare * static_cast<float>(options.max_triangles)), 2, kMostGroundTriangles);
   ground_options.shade = crown_cover(scene);
   std::vector<TriangleMesh> chunks = geometry::mesh_ground(*document.terrain, ground_options);
+  TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options);
+  const std::size_t tree_count = scene.trees.size() + document.heroes.size();
+  if (options.max_triangles > 0) {
+    std::size_t obstacles = 0;
+    for (const Obstacle& obstacle : document.obstacles) obstacles += obstacle.mesh->triangles();
+    const auto least = [&] {
+      return triangles(chunks) + water.triangles() + obstacles + geometry::kTwoCardTriangles * tree_count;
+    };
+    if (least() > options.max_triangles) {
+      // The coarsest ground there is.
+      ground_options.max_triangles = 2;
+      chunks = geometry::mesh_ground(*document.terrain, ground_options);
+      water = geometry::mesh_water(*document.terrain, ground_options);
+    }
+    if (least() > options.max_triangles)
+      return Error{fmt::format(
+          "--max-triangles {}: the least possible here is {}: {} of the ground{}{}, and {} for each of {} trees",
+          options.max_triangles, least(), triangles(chunks),
+          water.empty() ? "" : fmt::format(", {} of the water", water.triangles()),
+          obstacles == 0 ? "" : fmt::format(", {} of obstacles", obstacles), geometry::kTwoCardTriangles, tree_count)};
+  }
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     built.triangles += chunks[c].triangles();
     model.nodes.push_back(mesh_node(chunks.size() == 1 ? "ground" : fmt::format("ground-{}", c + 1),
                                     std::move(chunks[c]), ground_material(document)));
   }
-  if (TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options); !water.empty()) {
+  if (!water.empty()) {
     built.triangles += water.triangles();
     model.nodes.push_back(mesh_node("water", std::move(water), water_material(document)));
   }
@@ -217,54 +248,47 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   // What each tree is drawn with, and what its full mesh needs.
   std::vector<Drawn> trees = drawn_trees(scene);
   std::vector<std::vector<float>> radii(trees.size());
-  std::vector<geometry::MeshOptions> mesh_options(trees.size());
+  std::vector<TreeOrder> orders(trees.size());
   std::vector<std::size_t> need(trees.size());
   std::vector<float> weight(trees.size());
   parallel_for(trees.size(), [&](std::size_t i) {
     const Drawn& tree = trees[i];
     const Species& species = *document.species[tree.species];
     radii[i] = tree.season < 0 ? tree.skeleton->radius : growth::radii(*tree.skeleton, tree.season);
-    mesh_options[i] = {tree.season, options.season, options.foliage, 0, document.seed, tree.key};
-    need[i] =
-        geometry::estimate_triangles(*tree.skeleton, radii[i], species.look, species.foliage, mesh_options[i]) * 3 / 2;
+    TreeOrder& order = orders[i];
+    order.input = {tree.skeleton,
+                   radii[i],
+                   &species.look,
+                   &species.foliage,
+                   {tree.season, options.season, options.foliage, 0, document.seed, tree.key}};
+    order.species = tree.species;
+    order.size = Vec2(tree.crown_m, tree.height_m);
+    order.need = need[i] =
+        geometry::estimate_triangles(*tree.skeleton, radii[i], species.look, species.foliage, order.input.options) * 3 /
+        2;
     const float apparent = apparent_size(document, tree.base, tree.height_m);
     weight[i] = apparent * apparent * apparent;
   });
-  std::vector<std::size_t> budget(trees.size(), 0);
-  if (options.max_triangles > 0)
-    budget = divide_budget(need, weight, options.max_triangles - std::min(options.max_triangles, built.triangles));
+  if (options.max_triangles > 0) {
+    const auto budget = divide_budget(need, weight, options.max_triangles - built.triangles);
+    for (std::size_t i = 0; i < orders.size(); ++i) orders[i].budget = budget[i];
+  }
 
   if (progress) progress->begin("meshes", trees.size());
-  std::vector<Node> nodes(trees.size());
-  std::vector<std::size_t> cards(trees.size());
-  std::vector<float> costs(need.begin(), need.end());
-  parallel_dearest_first(costs, [&](std::size_t i) {
-    if (progress && progress->cancelled()) return;
-    const Species& species = *document.species[trees[i].species];
-    mesh_options[i].max_triangles = budget[i];
-    geometry::TreeMesh mesh =
-        geometry::build_tree_mesh(*trees[i].skeleton, radii[i], species.look, species.foliage, mesh_options[i]);
-    cards[i] = mesh.leaves.triangles() /
-               std::max<std::size_t>(1, geometry::triangles_per_site(species.foliage, options.foliage));
-    Node& node = nodes[i];
+  std::vector<TreeParts> parts = build_tree_parts(orders, options.levels, model.materials, progress);
+  if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    built.leaf_cards += parts[i].leaf_cards;
+    ++built.forms[static_cast<std::size_t>(parts[i].form)];
+    for (const Part& part : parts[i].parts) built.triangles += part.mesh->triangles();
+    Node node;
     node.name = std::move(trees[i].name);
     node.translation = trees[i].base;
     node.extras = std::move(trees[i].extras);
-    if (!mesh.branches.empty())
-      node.parts.push_back(
-          {std::make_shared<const TriangleMesh>(std::move(mesh.branches)), material_of(trees[i].species, kBarkPart)});
-    if (!mesh.leaves.empty()) {
-      const SpeciesPart part = mesh.foliage == geometry::FoliageLevel::cards ? kMassPart : kLeafPart;
-      node.parts.push_back(
-          {std::make_shared<const TriangleMesh>(std::move(mesh.leaves)), material_of(trees[i].species, part)});
-    }
-    if (progress) progress->advance();
-  });
-  if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
-  for (std::size_t i = 0; i < trees.size(); ++i) {
-    built.leaf_cards += cards[i];
-    for (const Part& part : nodes[i].parts) built.triangles += part.mesh->triangles();
-    model.nodes.push_back(std::move(nodes[i]));
+    node.parts = std::move(parts[i].parts);
+    node.coarser = std::move(parts[i].coarser);
+    node.coverage = parts[i].coverage;
+    model.nodes.push_back(std::move(node));
   }
   model.cameras = document.cameras;
   model.sun = document.sun;

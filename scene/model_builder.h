@@ -6,13 +6,16 @@
 //           less out of its picture, or the height without cameras, c such that the sum is the budget
 // Units     metres, world frame; extras in metres, years and degrees
 // Holds     the same bits for any number of threads
-// Errors    cancelled (kind cannot_finish)
+// Errors    a budget below what ground, water, obstacles and four triangles a tree take (says the least possible);
+//           cancelled (kind cannot_finish)
 #pragma once
+
+#include <array>
 
 #include "core/progress.h"
 #include "core/result.h"
 #include "geometry/season.h"
-#include "geometry/tree_mesh.h"
+#include "geometry/tree_levels.h"
 #include "scene/grown_scene.h"
 #include "scene/model.h"
 
@@ -23,14 +26,16 @@ inline constexpr float kGroundShare = 0.08f;
 struct ModelOptions {
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
-  std::size_t max_triangles = 3'000'000;  ///< 0: no limit
+  std::size_t max_triangles = 3'000'000;  ///< of the finest levels; 0: no limit
+  bool levels = false;                    ///< trees get coarser levels too (scene/tree_parts.h)
 };
 
 struct BuiltModel {
   Model model;
-  Seconds seconds;             ///< "geometry", "textures"
-  std::size_t leaf_cards = 0;  ///< leaves or leafed twigs in the meshes
-  std::size_t triangles = 0;
+  Seconds seconds;                                                   ///< "geometry", "textures"
+  std::size_t leaf_cards = 0;                                        ///< leaves or leafed twigs in the meshes
+  std::size_t triangles = 0;                                         ///< of the finest levels
+  std::array<std::size_t, geometry::kTreeFormNames.size()> forms{};  ///< trees of each geometry::TreeForm
 };
 
 Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& options, Progress* progress);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numeric>
+#include <string>
 
+#include "core/parallel.h"
 #include "scene/view_models.h"
 #include "tests/scene/sample_document.h"
 
@@ -56,6 +59,81 @@ TEST(ModelBuilder, TheTriangleBudgetIsKept) {
       for (const Part& part : node.parts) counted += part.mesh->triangles();
     EXPECT_EQ(counted, built->triangles);
   }
+}
+
+TEST(ModelBuilder, ABudgetTooSmallSaysTheLeastPossibleWhichSuffices) {
+  const GrownScene scene = small_scene();
+  const auto refused = build_model(scene, {.max_triangles = 3}, nullptr);
+  ASSERT_FALSE(refused);
+  const std::string& message = refused.error().message;
+  const std::string words = "the least possible here is ";
+  ASSERT_NE(message.find(words), std::string::npos) << message;
+  const std::size_t least = std::stoul(message.substr(message.find(words) + words.size()));
+  EXPECT_FALSE(build_model(scene, {.max_triangles = least - 1}, nullptr));
+  const auto built = build_model(scene, {.max_triangles = least}, nullptr);
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_LE(built->triangles, least);
+  EXPECT_EQ(built->forms[static_cast<std::size_t>(geometry::TreeForm::two_cards)], 3u);
+}
+
+TEST(ModelBuilder, TreesBecomeShellsThenCardsWithPicturesAsTheBudgetFalls) {
+  const GrownScene scene = small_scene();
+  std::array<std::size_t, 4> most{};
+  for (std::size_t budget : {9'000u, 350u, 150u, 60u, 16u}) {
+    const auto built = build_model(scene, {.max_triangles = budget}, nullptr);
+    ASSERT_TRUE(built) << built.error().message;
+    EXPECT_LE(built->triangles, budget);
+    for (std::size_t form = 0; form < most.size(); ++form) most[form] = std::max(most[form], built->forms[form]);
+    for (const Node& node : built->model.nodes)
+      for (const Part& part : node.parts) {
+        ASSERT_LT(part.material, built->model.materials.size());
+        const bool card = built->model.materials[part.material].name.rfind("impostors-", 0) == 0;
+        EXPECT_EQ(card, part.mesh->triangles() == 4 || (node.name != "ground" && part.mesh->triangles() == 10));
+      }
+  }
+  for (std::size_t form = 0; form < most.size(); ++form) EXPECT_GT(most[form], 0u) << geometry::kTreeFormNames[form];
+}
+
+TEST(ModelBuilder, LevelsFallInTrianglesAndCoverageDownToFourCards) {
+  const GrownScene scene = small_scene();
+  EXPECT_TRUE(build_model(scene, {}, nullptr)->model.nodes.back().coarser.empty());
+  const auto built = build_model(scene, {.levels = true}, nullptr);
+  ASSERT_TRUE(built);
+  const auto triangles = [](const std::vector<Part>& parts) {
+    std::size_t sum = 0;
+    for (const Part& part : parts) sum += part.mesh->triangles();
+    return sum;
+  };
+  for (const Node& node : built->model.nodes) {
+    if (node.name.rfind("silver_birch-", 0) != 0) continue;
+    ASSERT_GE(node.coarser.size(), 2u);
+    std::size_t before = triangles(node.parts);
+    float coverage = node.coverage;
+    for (const Level& level : node.coarser) {
+      EXPECT_LT(2 * triangles(level.parts), before + 1);
+      EXPECT_LT(level.coverage, coverage);
+      before = triangles(level.parts), coverage = level.coverage;
+    }
+    EXPECT_EQ(before, geometry::kFourCardTriangles);
+    EXPECT_EQ(coverage, 0.0f);
+  }
+}
+
+TEST(ModelBuilder, CardsAndPicturesAreTheSameForAnyNumberOfThreads) {
+  const GrownScene scene = small_scene();
+  std::vector<std::uint8_t> pixels[2];
+  std::vector<Vec3> positions[2];
+  for (int k = 0; k < 2; ++k)
+    run_with_threads(k == 0 ? 1 : 5, [&, k] {
+      const auto built = build_model(scene, {.max_triangles = 60}, nullptr);
+      ASSERT_TRUE(built);
+      pixels[k] = built->model.materials.back().base_colour->pixels;
+      for (const Node& node : built->model.nodes)
+        for (const Part& part : node.parts)
+          positions[k].insert(positions[k].end(), part.mesh->positions.begin(), part.mesh->positions.end());
+    });
+  EXPECT_EQ(pixels[0], pixels[1]);
+  EXPECT_TRUE(positions[0] == positions[1]);
 }
 
 TEST(ViewModels, EveryViewHasMeshes) {
