@@ -81,8 +81,9 @@ void Barriers::add_triangle(const std::array<Vec2, 3>& corners) {
 }
 
 bool Barriers::cell_touched(Vec2 at, float radius_m) const {
-  const IVec2 low = glm::max(IVec2(glm::floor((at - radius_m) / cell_m_)), IVec2(0));
-  const IVec2 high = glm::min(IVec2(glm::floor((at + radius_m) / cell_m_)), cells_ - 1);
+  const Vec2 end(cells_);
+  const IVec2 low(glm::clamp((at - radius_m) / cell_m_, Vec2(0.0f), end));
+  const IVec2 high(glm::clamp((at + radius_m) / cell_m_, Vec2(-1.0f), end - 1.0f));
   for (int j = low.y; j <= high.y; ++j)
     for (int i = low.x; i <= high.x; ++i)
       if (touched_[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells_.x) + static_cast<std::size_t>(i)])

@@ -146,7 +146,7 @@ class Stand {
     heads_.assign(static_cast<std::size_t>(buckets_.x) * static_cast<std::size_t>(buckets_.y), -1);
     circles_.clear();
   }
-  IVec2 bucket(Vec2 at) const { return glm::clamp(IVec2(at / bucket_m_), IVec2(0), buckets_ - 1); }
+  IVec2 bucket(Vec2 at) const { return IVec2(glm::clamp(at / bucket_m_, Vec2(0.0f), Vec2(buckets_ - 1))); }
   int& head(int i, int j) {
     return heads_[static_cast<std::size_t>(j) * static_cast<std::size_t>(buckets_.x) + static_cast<std::size_t>(i)];
   }
