@@ -16,6 +16,12 @@ Result<void> run_render(const Options& options);
 Result<void> run_info(const Options& options);
 /// `bosquet import`: ground and trees into a recipe file.
 Result<void> run_import(const Options& options);
+/// The same into a project (.bosquet), obstacles too.
+Result<void> import_into_project(const Options& options);
+/// `bosquet recover list`: what sessions left that ended without saving, on stdout.
+Result<void> run_recover_list(const Options& options);
+/// `bosquet recover NAME -o FILE`: saves one of them as a project.
+Result<void> run_recover(const Options& options);
 /// `bosquet stats`: pattern statistics of bases and crown centroids, on stdout.
 Result<void> run_stats(const Options& options);
 /// `bosquet species list | show NAME`.

@@ -6,49 +6,87 @@
 #include <cstdio>
 
 #include "cli/picture.h"
+#include "core/stopwatch.h"
+#include "exchange/file_output.h"
 #include "exchange/recipe.h"
 #include "scene/clearance.h"
+#include "scene/project_file.h"
 
 namespace bosquet::cli {
 namespace {
 
 constexpr std::size_t kShownWarnings = 12;
 
-// A recipe's own files are never replaced by what is made from it.
-Result<void> refuse_overwriting(const exchange::Recipe& recipe, const Options& options) {
-  std::vector<std::filesystem::path> inputs{recipe.file, recipe.ground.dem};
-  for (const exchange::PlantingRecipe& planting : recipe.plantings) inputs.push_back(planting.file);
-  for (const exchange::ObstacleRecipe& obstacle : recipe.obstacles) inputs.push_back(obstacle.file);
-  for (const exchange::HeroRecipe& hero : recipe.heroes) inputs.push_back(hero.file);
+// What is read is never replaced by what is made from it.
+Result<void> refuse_overwriting(const std::vector<std::filesystem::path>& inputs, const Options& options) {
   std::vector<std::filesystem::path> targets = options.outputs;
   targets.push_back(options.report);
   for (const auto& target : targets)
     for (const auto& input : inputs) {
       std::error_code ec;
       if (!target.empty() && !input.empty() && std::filesystem::equivalent(target, input, ec))
-        return Error{fmt::format("{}: the recipe reads this file; write to another name", target.string())};
+        return Error{fmt::format("{}: this file is read; write to another name", target.string())};
     }
   return {};
 }
 
+Result<void> refuse_overwriting(const exchange::Recipe& recipe, const Options& options) {
+  std::vector<std::filesystem::path> inputs = recipe.ground.files();
+  inputs.push_back(recipe.file);
+  for (const exchange::PlantingRecipe& planting : recipe.plantings) inputs.push_back(planting.file);
+  for (const exchange::ObstacleRecipe& obstacle : recipe.obstacles) inputs.push_back(obstacle.file);
+  for (const exchange::HeroRecipe& hero : recipe.heroes) inputs.push_back(hero.file);
+  return refuse_overwriting(inputs, options);
+}
+
+// A project, with all that opening it found.
+Result<scene::Document> load_project(const Options& options, Report& report) {
+  if (auto fine = refuse_overwriting(std::vector<std::filesystem::path>{options.file}, options); !fine)
+    return fine.error();
+  const Stopwatch watch;
+  auto project = scene::read_project(options.file);
+  if (!project) return project.error();
+  for (const std::string& line : scene::lines(project->state))
+    report.warnings.push_back(fmt::format("{}: {}", options.file.string(), line));
+  if (options.seed) project->document.seed = *options.seed;
+  report.seconds["terrain"] = watch.seconds();
+  report.seconds["distribution"] = 0;
+  return std::move(project->document);
+}
+
 }  // namespace
 
-Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {
-  if (options.file.extension() != ".toml")
-    return Error{fmt::format("{}: is no recipe, a .toml file", options.file.string())};
-  auto recipe = exchange::read_recipe(options.file, options.seed);
-  if (!recipe) return recipe.error();
-  if (auto fine = refuse_overwriting(*recipe, options); !fine) return fine.error();
-  auto built = exchange::build_document(*recipe, &progress);
-  if (!built) return built.error();
-  if (auto fine = check_picture_options(built->document, options); !fine) return fine.error();
-  report.seed = built->document.seed;
-  report.seconds = built->seconds;
-  report.warnings = built->warnings;
-  for (const auto& breach : scene::clearance_breaches(built->document, built->document.clearance))
-    report.warnings.push_back(scene::words(breach, built->document));
+Result<scene::Document> load_document(const Options& options, Report& report, Progress& progress) {
+  const std::string ending = exchange::lower_ending(options.file);
+  scene::Document document;
+  if (ending == ".bosquet") {
+    auto project = load_project(options, report);
+    if (!project) return project.error();
+    document = std::move(*project);
+  } else if (ending == ".toml") {
+    auto recipe = exchange::read_recipe(options.file, options.seed);
+    if (!recipe) return recipe.error();
+    if (auto fine = refuse_overwriting(*recipe, options); !fine) return fine.error();
+    auto built = exchange::build_document(*recipe, &progress);
+    if (!built) return built.error();
+    document = std::move(built->document);
+    report.seconds = built->seconds;
+    report.warnings = built->warnings;
+  } else {
+    return Error{fmt::format("{}: is no recipe (.toml) and no project (.bosquet)", options.file.string())};
+  }
+  report.seed = document.seed;
+  return document;
+}
 
-  auto grown = scene::grow_scene(built->document, options.grow, &progress);
+Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {
+  auto document = load_document(options, report, progress);
+  if (!document) return document.error();
+  if (auto fine = check_picture_options(*document, options); !fine) return fine.error();
+  for (const auto& breach : scene::clearance_breaches(*document, document->clearance))
+    report.warnings.push_back(scene::words(breach, *document));
+
+  auto grown = scene::grow_scene(*document, options.grow, &progress);
   if (!grown) return grown.error();
   report.trees = grown->trees.size();
   report.internodes = grown->internodes();

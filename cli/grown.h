@@ -1,4 +1,4 @@
-// Grown: the way from a recipe file to a grown scene that several commands share.
+// Grown: the way from a recipe or project to a document and a grown scene that several commands share.
 #pragma once
 
 #include "cli/options.h"
@@ -8,7 +8,10 @@
 
 namespace bosquet::cli {
 
-/// Reads the recipe, plants and grows; fills the report as far as it goes.
+/// The document of a recipe (.toml), which is planted, or of a project (.bosquet); fills the report as far as it goes.
+Result<scene::Document> load_document(const Options& options, Report& report, Progress& progress);
+
+/// Loads the document and grows it.
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress);
 
 /// Prints warnings on stderr unless quiet; long lists are cut, the report has them all.

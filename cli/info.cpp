@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/grown.h"
 #include "exchange/file_output.h"
 #include "exchange/gltf_check.h"
 #include "exchange/gltf_info.h"
-#include "exchange/recipe.h"
 
 namespace bosquet::cli {
 namespace {
@@ -85,28 +85,32 @@ std::string faults_text(const exchange::GltfCheck& check, const std::string& fil
   return text;
 }
 
-Result<void> recipe_info(const Options& options) {
-  auto recipe = exchange::read_recipe(options.file, options.seed);
-  if (!recipe) return recipe.error();
-  auto built = exchange::build_document(*recipe);
-  if (!built) return built.error();
+// A recipe or a project, without growing it.
+Result<void> document_info(const Options& options) {
+  const bool project = exchange::lower_ending(options.file) == ".bosquet";
+  Report report;
+  Progress progress;
+  auto document = load_document(options, report, progress);
+  if (!document) return document.error();
   std::map<std::string, std::size_t> count;
-  for (const scene::Tree& tree : *built->document.trees) ++count[built->document.species_of(tree).name];
-  const Vec2 size = recipe->size_m;
+  for (const scene::Tree& tree : *document->trees) ++count[document->species_of(tree).name];
+  const Vec2 size = document->terrain->size_m();
   if (options.json) {
     Json json;
     json["site_m"] = {size.x, size.y};
-    json["seed"] = built->document.seed;
-    json["trees"] = built->document.trees->size();
+    json["seed"] = document->seed;
+    json["trees"] = document->trees->size();
     json["species"] = count;
-    json["warnings"] = built->warnings;
+    json["obstacles"] = document->obstacles.size();
+    json["hero_trees"] = document->heroes.size();
+    json["warnings"] = report.warnings;
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return {};
   }
-  fmt::print("{}: recipe, site {:g} x {:g} m, {} trees\n", options.file.string(), size.x, size.y,
-             built->document.trees->size());
+  fmt::print("{}: {}, site {:g} x {:g} m, {} trees\n", options.file.string(), project ? "project" : "recipe", size.x,
+             size.y, document->trees->size());
   for (const auto& [name, n] : count) fmt::print("{} {}\n", n, name);
-  for (const std::string& warning : built->warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return {};
 }
 
@@ -114,12 +118,12 @@ Result<void> recipe_info(const Options& options) {
 
 Result<void> run_info(const Options& options) {
   const std::string ending = exchange::lower_ending(options.file);
-  if (ending == ".toml") {
+  if (ending == ".toml" || ending == ".bosquet") {
     if (options.check) return Error{fmt::format("{}: --check judges .glb and .gltf", options.file.string())};
-    return recipe_info(options);
+    return document_info(options);
   }
   if (ending != ".glb" && ending != ".gltf")
-    return Error{fmt::format("{}: info reads .glb, .gltf and recipes (.toml)", options.file.string())};
+    return Error{fmt::format("{}: info reads .glb, .gltf, projects (.bosquet) and recipes (.toml)", options.file.string())};
   auto info = exchange::read_gltf_info(options.file);
   if (!info) return info.error();
   exchange::GltfCheck check;

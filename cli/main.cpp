@@ -22,6 +22,10 @@ Result<void> run(const cli::Options& options) {
       return cli::run_info(options);
     case cli::Command::import_data:
       return cli::run_import(options);
+    case cli::Command::recover_list:
+      return cli::run_recover_list(options);
+    case cli::Command::recover:
+      return cli::run_recover(options);
     case cli::Command::stats:
       return cli::run_stats(options);
     case cli::Command::species_list:

@@ -21,6 +21,8 @@ enum class Command {
   render,
   info,
   import_data,
+  recover_list,
+  recover,
   stats,
   species_list,
   species_show,
@@ -54,7 +56,9 @@ struct Options {
   int width = 1600, height = 900;
 
   // Import.
-  std::filesystem::path dem, inventory;
+  std::filesystem::path dem, inventory, obstacle;
+
+  std::string recovery;  ///< name of what is recovered
 
   // Calibration and gallery.
   std::vector<float> ages;

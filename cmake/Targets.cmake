@@ -18,6 +18,17 @@ if(BOSQUET_TSAN)
   target_link_options(bosquet_options INTERFACE -fsanitize=thread)
 endif()
 
+if(BOSQUET_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    message(FATAL_ERROR "BOSQUET_FUZZ needs clang, for libFuzzer: use the preset 'fuzz'")
+  endif()
+  # Everything tells the fuzzer where it has been; the targets themselves bring its main().
+  target_compile_options(bosquet_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                                                   -fno-sanitize-recover=undefined -fno-sanitize=vptr
+                                                   -fno-omit-frame-pointer -Wno-unused-command-line-argument)
+  target_link_options(bosquet_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 find_program(BOSQUET_CCACHE ccache)
 if(BOSQUET_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${BOSQUET_CCACHE}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what building, running and testing Bosquet needs on Debian 12: scripts/setup.sh [build|test]
+# Installs what building, running and testing Bosquet needs on Debian 12: scripts/setup.sh [build|test|nightly]
 # Asks apt only for packages that are missing, so a second run is quick and needs no network.
 set -euo pipefail
 
@@ -13,6 +13,9 @@ build=(g++ cmake ninja-build pkg-config ccache
 test=(chromium gdal-bin)
 
 wanted=("${build[@]}")
+if [ "${1:-build}" = nightly ]; then
+  wanted+=(clang libclang-rt-14-dev)
+fi
 if [ "${1:-build}" = test ]; then
   wanted+=("${test[@]}")
   # Node may come from elsewhere than Debian, whose packages would then conflict.

@@ -1,0 +1,136 @@
+// Projects on the command line: made of a recipe, grown, written as a recipe again, recovered.
+#include "program.h"
+#include "scene/document_digest.h"
+#include "scene/journal.h"
+#include "scene/project_file.h"
+
+namespace bosquet {
+namespace {
+
+class ProjectCommandTest : public ProgramTest {
+ protected:
+  // Everything a recipe can have that makes a difference to skeletons, on a small site.
+  void write_recipe() {
+    write("a.toml", R"(
+[site]
+size_m = [30, 24]
+seed = 9
+[terrain]
+water_level_m = -3.0
+[terrain.noise]
+amplitude_m = 1.5
+[[species]]
+name = "own_birch"
+like = "silver_birch"
+[species.growth]
+straightness = 0.7
+[[species]]
+name = "english_oak"
+[[planting]]
+name = "wood"
+species = { own_birch = 2, english_oak = 1 }
+count = 6
+scale = [0.15, 0.25]
+[[planting]]
+name = "one"
+kind = "single"
+at = [20, 12]
+species = { english_oak = 1 }
+scale = 0.2
+clear_stem_m = 0.8
+[[obstacle]]
+name = "house"
+polygon = [[3, 3], [9, 3], [9, 8.5], [3, 8]]
+height_m = 3
+[[camera]]
+name = "gate"
+eye = [1, 1, 1.7]
+target = [15, 12, 4]
+[space]
+voxel_m = 0.4
+)");
+  }
+  std::string digest_of(const std::string& arguments) {
+    const Ran ran = bosquet("make " + arguments + " --report r.json --quiet");
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    return ran.status == 0 ? json("r.json")["skeleton_digest"].get<std::string>() : "";
+  }
+};
+
+TEST_F(ProjectCommandTest, ARecipeItsProjectAndTheProjectsRecipeGrowTheSameTrees) {
+  write_recipe();
+  const std::string recipe = digest_of("a.toml -o a.bosquet");
+  EXPECT_EQ(recipe.size(), 16u);
+  EXPECT_EQ(digest_of("a.bosquet -o b.toml"), recipe);
+  EXPECT_EQ(digest_of("b.toml -o c.bosquet"), recipe);
+  // Not the skeletons alone: trees with their ids and keys, ground, obstacles and settings are the same.
+  const auto a = scene::read_project(folder_ / "a.bosquet"), c = scene::read_project(folder_ / "c.bosquet");
+  ASSERT_TRUE(a && c);
+  EXPECT_EQ(a->document.trees->to_vector(), c->document.trees->to_vector());
+  const auto one = scene::digest(a->document), other = scene::digest(c->document);
+  EXPECT_EQ(one[scene::Section::obstacles], other[scene::Section::obstacles]);
+  EXPECT_EQ(a->document.space, c->document.space);
+  const Ran info = bosquet("info a.bosquet");
+  EXPECT_NE(info.out.find("project, site 30 x 24 m, 7 trees"), std::string::npos) << info.out << info.err;
+}
+
+TEST_F(ProjectCommandTest, AProjectIsNotWrittenOverByWhatIsMadeOfIt) {
+  write_recipe();
+  ASSERT_EQ(bosquet("make a.toml -o a.bosquet --quiet").status, 0);
+  const std::string before = file_text(folder_ / "a.bosquet");
+  const Ran ran = bosquet("make a.bosquet -o a.bosquet");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("this file is read"), std::string::npos) << ran.err;
+  EXPECT_EQ(file_text(folder_ / "a.bosquet"), before);
+}
+
+TEST_F(ProjectCommandTest, ADamagedProjectIsGrownAsFarAsItGoesWithAWarning) {
+  write_recipe();
+  ASSERT_EQ(bosquet("make a.toml -o a.bosquet --quiet").status, 0);
+  std::filesystem::resize_file(folder_ / "a.bosquet", std::filesystem::file_size(folder_ / "a.bosquet") - 4096);
+  const Ran ran = bosquet("info a.bosquet");
+  EXPECT_TRUE(ran.status == 1 || ran.err.find("damaged") != std::string::npos) << ran.out << ran.err;
+}
+
+TEST_F(ProjectCommandTest, TreesAndObstaclesAreImportedIntoAProject) {
+  write("trees.csv", "x_m,y_m,species,height_m\n5,6,Quercus robur,12\n15,9,Betula pendula,8\n");
+  write("houses.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"height":4,"name":"barn"},"geometry":
+        {"type":"Polygon","coordinates":[[[1,1],[3,1],[3,3],[1,3],[1,1]]]}}]})");
+  const Ran trees = bosquet("import p.bosquet --trees trees.csv");
+  ASSERT_EQ(trees.status, 0) << trees.err;
+  auto read = scene::read_project(folder_ / "p.bosquet");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->document.trees->size(), 2u);
+  const Ran more = bosquet("import p.bosquet --trees trees.csv --quiet");
+  EXPECT_TRUE(more.status == 0 || !more.err.empty());
+  EXPECT_EQ(bosquet("import q.bosquet --obstacle houses.geojson").status, 1) << "there is no site yet";
+  EXPECT_EQ(bosquet("import q.bosquet").status, 1);
+}
+
+TEST_F(ProjectCommandTest, WhatASessionLeftIsListedAndSaved) {
+  write_recipe();
+  ASSERT_EQ(bosquet("make a.toml -o a.bosquet --quiet").status, 0);
+  const auto state = folder_ / "state" / "bosquet" / "recovery";
+  scene::Document document = scene::read_project(folder_ / "a.bosquet")->document;
+  {
+    auto journal = scene::Journal::start(document, folder_ / "a.bosquet", state);
+    ASSERT_TRUE(journal);
+    document.seed = 1234;
+    (*journal)->record(document, 1);
+  }
+  const std::string with = "XDG_STATE_HOME=state '" + std::string(BOSQUET_PROGRAM) + "' ";
+  const Ran list = shell(with + "recover list");
+  EXPECT_EQ(list.status, 0);
+  EXPECT_NE(list.out.find("1 edit, of " + (folder_ / "a.bosquet").string()), std::string::npos) << list.out;
+  const std::string name = list.out.substr(0, list.out.find(' '));
+  EXPECT_EQ(shell(with + "recover nothing -o b.bosquet").status, 1);
+  EXPECT_EQ(shell(with + "recover " + name).status, 1) << "where to?";
+  const Ran saved = shell(with + "recover " + name + " -o b.bosquet");
+  ASSERT_EQ(saved.status, 0) << saved.err;
+  EXPECT_EQ(scene::read_project(folder_ / "b.bosquet")->document.seed, 1234u);
+  EXPECT_NE(shell(with + "recover").out.find("nothing to recover"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bosquet
