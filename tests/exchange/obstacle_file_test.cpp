@@ -81,6 +81,12 @@ TEST(MeshFile, WhatIsNoMeshIsRefusedByNameAndLine) {
       std::string::npos);
 }
 
+scene::Georeference at(DVec2 south_west) {
+  scene::Georeference place;
+  place.south_west = south_west;
+  return place;
+}
+
 constexpr const char* kTown = R"({"type":"FeatureCollection","features":[
   {"type":"Feature","properties":{"name":"school","height":11.5},
    "geometry":{"type":"Polygon","coordinates":[[[510,210],[530,210],[530,220],[510,220],[510,210]],
@@ -92,7 +98,7 @@ constexpr const char* kTown = R"({"type":"FeatureCollection","features":[
 
 TEST(Footprints, OutlinesComeWithHolesHeightsAndParts) {
   const ScratchFolder folder;
-  const auto read = read_footprints(write(folder, "town.geojson", kTown), {500, 200});
+  const auto read = read_footprints(write(folder, "town.geojson", kTown), at({500, 200}));
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->all.size(), 3u);
   EXPECT_EQ(read->all[0].name, "school");
@@ -108,21 +114,49 @@ TEST(Footprints, OutlinesComeWithHolesHeightsAndParts) {
 
 TEST(Footprints, WhatHasNoOutlinesIsRefused) {
   const ScratchFolder folder;
-  EXPECT_FALSE(read_footprints(folder / "nothing.geojson", {0, 0}));
-  EXPECT_FALSE(read_footprints(write(folder, "a.geojson", "{\"type\":"), {0, 0}));
+  EXPECT_FALSE(read_footprints(folder / "nothing.geojson", {}));
+  EXPECT_FALSE(read_footprints(write(folder, "a.geojson", "{\"type\":"), {}));
   const auto point =
       read_footprints(write(folder, "b.geojson",
                             R"({"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[5,2]}})"),
-                      {0, 0});
+                      {});
   ASSERT_FALSE(point);
   EXPECT_NE(point.error().message.find("no polygon"), std::string::npos);
-  const auto degrees = read_footprints(
-      write(
-          folder, "c.geojson",
-          R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[8.5,47.3],[8.501,47.3],[8.5,47.301],[8.5,47.3]]]}})"),
-      {0, 0});
-  ASSERT_FALSE(degrees);
-  EXPECT_NE(degrees.error().message.find("degrees"), std::string::npos);
+}
+
+TEST(Footprints, OutlinesInDegreesPlaceASiteThatHadNoPlace) {
+  const ScratchFolder folder;
+  // At 60 degrees north a thousandth of a degree is 111.4 m to the north and 55.8 m to the east (WGS 84).
+  const auto read = read_footprints(
+      write(folder, "c.geojson", R"({"type":"Feature","properties":{"height":"tall"},"geometry":{"type":"Polygon",
+        "coordinates":[[[10,60],[10.001,60],[10.001,60.001],[10,60.001],[10,60]]]}})"),
+      {}, DVec2(100, 200));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_TRUE(read->place);
+  EXPECT_NEAR(read->place->latitude_deg, 60.0005, 0.001);
+  const Box2 box = read->all[0].outline.bounds();
+  EXPECT_NEAR(box.size().x, 55.8, 0.1);
+  EXPECT_NEAR(box.size().y, 111.4, 0.1);
+  EXPECT_GT(box.low.x, 0);
+  EXPECT_LT(box.high.y, 200);
+  // What stands in place of a height is told, not taken for one.
+  EXPECT_FALSE(read->all[0].height_m);
+  std::string notes;
+  for (const std::string& note : read->notes) notes += note + "\n";
+  EXPECT_NE(notes.find("'tall' of building 1"), std::string::npos) << notes;
+}
+
+TEST(Footprints, AnOutlineThatCrossesItselfIsTakenApartAndNamed) {
+  const ScratchFolder folder;
+  const auto read = read_footprints(
+      write(folder, "bow.geojson", R"({"type":"Feature","properties":{"name":"bow"},"geometry":{"type":"Polygon",
+        "coordinates":[[[500,0],[520,20],[520,0],[500,20],[500,0]]]}})"),
+      at({500, 0}));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->all.size(), 2u);
+  for (const Footprint& part : read->all) EXPECT_EQ(part.outline.ring.size(), 3u);
+  ASSERT_FALSE(read->notes.empty());
+  EXPECT_NE(read->notes.back().find("'bow'"), std::string::npos) << read->notes.back();
 }
 
 constexpr const char* kHead = "[site]\nsize_m = [60, 40]\nsouth_west = [500, 200]\n";
