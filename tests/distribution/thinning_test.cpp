@@ -48,7 +48,7 @@ TEST(Thinning, NoTwoCirclesOfTheTreesLeftMeet) {
 
 TEST(Thinning, VolumeRisesAsNumbersToThePowerOfMinusThreeHalves) {
   // Yoda's rule for stands of one age: once circles meet, log mean volume falls along a line of slope -3/2 over log
-  // number. Four stands of one species, every five years from closing to 80.
+  // number. Four stands of one species, every five years from 20, when their wide circles have met all over, to 80.
   Sowing oaks = kMix;
   oaks.mix = {{0, 1}};
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -57,7 +57,7 @@ TEST(Thinning, VolumeRisesAsNumbersToThePowerOfMinusThreeHalves) {
     double before = 1e9;
     for (int years = 20; years <= 80; years += 5) {
       const ThinningRules rules{
-          .seedlings_per_ha = 5000, .regeneration_per_ha = 0, .years = years, .least_scale = 0.02f};
+          .seedlings_per_ha = 5000, .regeneration_per_ha = 0, .years = years, .crowding = 0.7f, .least_scale = 0.02f};
       const Thinned left = stand(rules, oaks);
       double volume = 0;
       for (const StandingTree& tree : left.trees)
