@@ -19,6 +19,16 @@ std::vector<std::byte> packed_vertices(const std::byte* data, std::size_t count,
   return out;
 }
 
+// Unit vectors of signed bytes as two numbers (octahedral map) instead of three.
+std::vector<std::byte> octahedral(const std::byte* data, std::size_t count) {
+  std::vector<float> vectors(4 * count);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    vectors[i] = static_cast<float>(std::to_integer<std::int8_t>(data[i])) / 127.0f;
+  std::vector<std::byte> out(4 * count);
+  meshopt_encodeFilterOct(out.data(), count, 4, 8, vectors.data());
+  return out;
+}
+
 std::vector<std::byte> packed_indices(const std::byte* data, std::size_t count, std::size_t size) {
   std::vector<unsigned int> indices(count);
   unsigned int most = 0;
@@ -44,6 +54,8 @@ void pack_group(const MeshGroup& group, std::span<const std::byte> bytes, Packed
     const auto stream = static_cast<Stream>(s);
     const std::byte* data = bytes.data() + (view.offset - group.begin);
     const std::uint64_t size = element_bytes(stream), count = view.length / size;
+    std::vector<std::byte> filtered;
+    if (is_octahedral(stream)) filtered = octahedral(data, count), data = filtered.data();
     views[s].data = is_index(stream) ? packed_indices(data, count, size) : packed_vertices(data, count, size);
     views[s].data.shrink_to_fit();
     assert(!views[s].data.empty());

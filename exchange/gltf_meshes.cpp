@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 static_assert(sizeof(Vec3) == 12 && sizeof(Vec2) == 8 && sizeof(Rgba8) == 4);
 
-constexpr std::uint64_t kGroupBytes = std::uint64_t{32} << 20;
+constexpr std::uint64_t kGroupBytes = std::uint64_t{8} << 20;
 constexpr std::uint64_t kShortIndexVertices = 65'535;  // index 65,535 would be the primitive restart value
 
 constexpr float kMostQuanta = 32'767.0f;

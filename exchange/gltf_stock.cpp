@@ -14,6 +14,8 @@ namespace bosquet::exchange {
 namespace {
 
 constexpr float kMostQuanta = 32'767.0f;
+// A millimetre is enough for wood and leaves, if the mesh is not small itself.
+constexpr float kPackedStep_m = 1e-3f, kLeastPackedQuanta = 2000.0f;
 
 // Parts of all shown levels, with the node that shows them.
 template <class Visit>
@@ -87,7 +89,11 @@ void quantize(const scene::Model& model, const GltfOptions& options, GltfStock& 
     const Box3& own = box[groups.root(m)];
     facts.centre = placed[groups.root(m)] ? Vec3(0.0f) : own.centre();
     const Vec3 reach = glm::max(glm::abs(own.low - facts.centre), glm::abs(own.high - facts.centre));
-    facts.step = std::max({reach.x, reach.y, reach.z, 1e-6f}) / kMostQuanta;
+    const float most = std::max({reach.x, reach.y, reach.z, 1e-6f});
+    facts.step = most / kMostQuanta;
+    // Packed data shrink with every bit less.
+    if (options.compression == Compression::meshopt)
+      facts.step = std::max(facts.step, std::min(kPackedStep_m, most / kLeastPackedQuanta));
   }
 }
 

@@ -6,7 +6,7 @@
 //           Parts that use the same TriangleMesh share its accessors, nodes with the same parts share the mesh.
 // Layout    POSITION and NORMAL float, TANGENT float where a normal map is used; TEXCOORD_0 16-bit when all lie in
 //           [0, 1], else float, absent without textures; COLOR_0 8-bit, absent when all white; indices 16-bit up to
-//           65,535 vertices, else 32-bit. Meshes are packed in groups of about 32 MB, in each group one buffer view per
+//           65,535 vertices, else 32-bit. Meshes are packed in groups of about 8 MB, in each group one buffer view per
 //           kind of data.
 // Instances with `instancing` leaves that are copies of a few cards are written once and placed by the graphics card; the
 //           colour of each is _COLOR_0 of the instance, which three.js shows and others leave out

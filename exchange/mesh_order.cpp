@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -26,6 +27,20 @@ MeshOrder by_first_use(std::vector<std::uint32_t> indices, std::size_t vertex_co
   return order;
 }
 
+// Small pieces one after the other that share no vertices, as cards of leaves: any order of them is as good.
+bool is_run_of_pieces(const TriangleMesh& mesh) {
+  constexpr std::uint32_t kMostVertices = 16;
+  std::uint32_t low = 0, high = 0;  // of the piece, vertices [low, high)
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+    const std::uint32_t least = std::min({a, b, c}), most = std::max({a, b, c});
+    if (least >= high) low = least;
+    high = std::max(high, most + 1);
+    if (least < low || high - low > kMostVertices) return false;
+  }
+  return true;
+}
+
 template <class T>
 std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
   std::vector<T> out;
@@ -39,6 +54,7 @@ std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uin
 
 MeshOrder best_order(const TriangleMesh& mesh) {
   assert(mesh.indices.size() % 3 == 0);
+  if (is_run_of_pieces(mesh)) return present_order(mesh);
   std::vector<std::uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCache(indices.data(), mesh.indices.data(), mesh.indices.size(), mesh.positions.size());
   return by_first_use(std::move(indices), mesh.positions.size());
