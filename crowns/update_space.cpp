@@ -385,8 +385,10 @@ class SpaceUpdater {
     std::size_t next = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (slot_of_[i] != kGone) continue;
-      while (next < edit.old_claimant.size() && (edit.old_claimant[next] != kGone || edit.claimant[next] != kGone))
-        ++next;
+      const auto taken = [&](std::size_t slot) {
+        return edit.claimant[slot] != kGone || (slot < edit.old_claimant.size() && edit.old_claimant[slot] != kGone);
+      };
+      while (next < edit.claimant.size() && taken(next)) ++next;
       if (next >= edit.claimant.size()) edit.claimant.push_back(kGone);
       slot_of_[i] = static_cast<std::int32_t>(next);
       edit.claimant[next] = static_cast<std::int32_t>(i);
@@ -527,7 +529,15 @@ class SpaceUpdater {
       low = std::min(low, *std::min_element(tile->ground->begin(), tile->ground->end()));
     tile->first_layer = low;
     tile->layers = high - low;
+    // A tree that was not edited may come in from a tile beside: its base counts from now on.
     tile->highest_base = std::max(highest_base, held ? held->highest_base : highest_base);
+    std::int32_t last = kFree;
+    for (const Part& part : t.parts)
+      for (const std::int32_t slot : part.sheet->now) {
+        if (slot == last || slot < 0) continue;
+        last = slot;
+        tile->highest_base = std::max(tile->highest_base, edit.new_place(slot)->base);
+      }
     const std::size_t voxels = static_cast<std::size_t>(tile->layers) * kColumns;
     tile->owner.assign(voxels, kFree);
     if (options_.keep_ticks) tile->ticks.assign(voxels, 0);
@@ -630,6 +640,9 @@ class SpaceUpdater {
       const std::int32_t c = space.claimant_of_[static_cast<std::size_t>(slots[n])];
       if (c != kGone) space.shares_[static_cast<std::size_t>(c)] = shares_in(space, slots[n], moved.at(slots[n]));
     });
+    // A new tree all of whose voxels a hero tree took has none.
+    for (auto& shares : space.shares_)
+      if (!shares) shares = std::make_shared<const std::vector<LayerShare>>();
     for (std::int32_t slot : slots)
       if (const std::int32_t c = space.claimant_of_[static_cast<std::size_t>(slot)]; c != kGone)
         space.claimed_ += count(space.shares(static_cast<std::size_t>(c)));

@@ -223,6 +223,48 @@ TEST(SpaceUpdate, TilesThatNothingChangedInAreShared) {
   EXPECT_LT(copied, 10u);
 }
 
+// On a steep slope a tree is added whose neighbour keeps it out of the tile below; then the neighbour goes, and what hangs
+// below the tree's base in that tile is its own, though the tree itself was not edited any more.
+TEST(SpaceUpdate, ATreeThatIsLetIntoALowerTileHangsThere) {
+  SpaceOptions options;
+  options.voxel_m = 0.5f;
+  const terrain::Terrain slope = ground(64.0f, [](Vec2 p) { return p.x; });
+  Claimant large = tree(1, {31.5f, 16.0f}, 5.0f, 8.0f), upper = tree(2, {33.0f, 16.0f}, 5.0f, 8.0f);
+  large.scale_height = large.scale_width = 1.3f;
+  for (Claimant* t : {&large, &upper}) t->ground_y = slope.ground(t->base);
+  const auto first = divide_space(std::vector{large}, slope, options);
+  ASSERT_TRUE(first);
+  const auto both = update_space(*first, std::vector{large, upper}, {}, slope, options);
+  ASSERT_TRUE(both);
+  const auto alone = update_space(both->space, std::vector{upper}, {}, slope, options);
+  ASSERT_TRUE(alone);
+  ASSERT_FALSE(both->whole || alone->whole);
+  const auto whole = divide_space(std::vector{upper}, slope, options);
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(difference(alone->space, *whole), "");
+}
+
+TEST(SpaceUpdate, ManyTreesMayComeGoAndMoveAtOnce) {
+  const auto all = clustered(9, 60, 30.0f, 6.0f, 9.0f, 4.0f);
+  const auto terrain = flat(30);
+  RandomStream random(9, 2, Purpose::statistics);
+  std::vector<Claimant> trees(all.begin(), all.begin() + 20);
+  CrownSpace space = *divide_space(trees, terrain, coarse());
+  for (int edit = 0; edit < 30; ++edit) {
+    trees.clear();
+    for (Claimant t : all) {
+      if (random.below(2)) continue;
+      if (random.below(6) == 0) t.base += Vec2{random.uniform(-1, 1), random.uniform(-1, 1)};
+      trees.push_back(t);
+    }
+    auto update = update_space(space, trees, {}, terrain, coarse());
+    ASSERT_TRUE(update);
+    EXPECT_FALSE(update->whole);
+    ASSERT_EQ(difference(update->space, *divide_space(trees, terrain, coarse())), "") << edit;
+    space = std::move(update->space);
+  }
+}
+
 TEST(SpaceUpdate, WithoutAnEditNothingChanges) {
   const auto trees = clustered(5, 60, 40.0f, 7.0f, 12.0f, 4.0f);
   const auto terrain = flat(40);
