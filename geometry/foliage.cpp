@@ -1,6 +1,7 @@
 #include "geometry/foliage.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "core/random.h"
@@ -132,7 +133,9 @@ struct Hanging {
   Vec3 heading, normal;
 };
 Hanging hanging(const Vec3& heading, const SinCos& droop, const Vec3& out) {
-  const Vec3 away = unit(Vec3{heading.x, 0, heading.z}, unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0}));
+  const Vec3 level{heading.x, 0, heading.z};
+  const float l2 = glm::dot(level, level);
+  const Vec3 away = l2 > 1e-10f ? level / std::sqrt(l2) : unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0});
   return {droop.cos * away - droop.sin * kUp, droop.cos * kUp + droop.sin * away};
 }
 
@@ -163,10 +166,11 @@ class Cards {
 
   /// A card with its foot at `foot`, `length` along `heading`; `sides` are the directions from its midline to the left
   /// and right edge (two halves, or one flat card when they are opposite), `normals` those of the halves.
+  /// `out` is the crown's outward direction somewhere near.
   void add(const Vec3& foot, const Vec3& heading, float length, float half_width, const Vec3& left, const Vec3& right,
-           const Vec3& up, const AtlasCell& uv, Rgba8 colour, bool folded) {
+           const Vec3& up, const Vec3& out, const AtlasCell& uv, Rgba8 colour, bool folded) {
     const Vec3 to_top = length * heading;
-    const Vec3 outward = crown_.outward(foot + 0.5f * to_top);
+    const Vec3 outward = small_ ? out : crown_.outward(foot + 0.5f * to_top);
     const float facing = glm::dot(up, outward);
     const bool front = facing >= 0.0f;
     // A card seen edge-on from outside shows both its sides there: its normals stay its own, or one side would be
@@ -175,7 +179,7 @@ class Cards {
     const float soft = soft_ * x * x * (3.0f - 2.0f * x);
     const Vec3 l = half_width * left, r = half_width * right;
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-    const Vec3 across = unit(right - left, left);
+    const Vec3 across = folded ? unit(right - left, left) : right;
     const Vec3 flat = front ? up : -up, of_all = unit(glm::mix(flat, outward, soft), kUp);
     const auto normal = [&](const Vec3& p, float side) {
       if (small_ && !folded) return of_all;
@@ -199,10 +203,9 @@ class Cards {
     const std::uint32_t row = folded ? 3 : 2;
     for (std::uint32_t k = 0; k + 1 < row; ++k) {
       const std::uint32_t a = base + k, b = a + 1, c = a + row, d = c + 1;
-      if (front)
-        mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
-      else
-        mesh.indices.insert(mesh.indices.end(), {a, d, b, a, c, d});
+      const std::array<std::uint32_t, 6> two =
+          front ? std::array<std::uint32_t, 6>{a, b, d, a, d, c} : std::array<std::uint32_t, 6>{a, d, b, a, c, d};
+      mesh.indices.insert(mesh.indices.end(), two.begin(), two.end());
     }
   }
 
@@ -338,9 +341,9 @@ std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
   return 2;
 }
 
-LeafFrame turn_petiole(LeafFrame f, const Vec3& toward, float twist, float bend, float turn) {
+LeafFrame turn_petiole(LeafFrame f, const Vec3& toward, float twist, float bend, float turn, float fineness) {
   // Steps small enough that the first-order turn is stable.
-  const int steps = 4 + static_cast<int>(2.0f * std::max({twist, bend, turn}));
+  const int steps = 2 + static_cast<int>(fineness * (2.0f + 2.0f * std::max({twist, bend, turn})));
   const float ds = 1.0f / static_cast<float>(steps);
   // Nearly a unit vector to one: a step of Newton's for the inverse root. Exactly at the end.
   const auto nearly_unit = [](const Vec3& v) { return v * (1.5f - 0.5f * glm::dot(v, v)); };
@@ -368,7 +371,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   const std::size_t n = sites.size();
   count = std::min(count, n);
   if (count == 0) return {};
-  const auto kept = [&](std::size_t k) { return (k + 1) * count / n != k * count / n; };
+  const auto kept = [&, whole = count == n](std::size_t k) { return whole || (k + 1) * count / n != k * count / n; };
 
   // What is left out adds its area to the others.
   double all = 0.0, of_kept = 0.0;
@@ -419,6 +422,8 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
   std::uint32_t last_internode = 0xffffffff, last_place = 0;
   Vec3 twig_at{0.0f}, out = kUp;
   LeafFrame twig_frame{};
+  RandomStream of_twig = of_tree;
+  float light = 1.0f, twig_warmth = 0.0f, twig_value = 1.0f;
   bool blooming = false;
   SinCos twig_azimuth{0.0f, 1.0f};
   Across twig_across(kUp);
@@ -433,10 +438,13 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
 
     // Where the twig stands on its branch and how it turns; wood turns less than a leaf's stalk. Leaves of one twig
     // come one after the other.
-    const float light = crown_light.at(i);
-    RandomStream of_twig = stream(in, i, site.place);
     if (i != last_internode || site.place != last_place) {
       last_internode = i, last_place = site.place;
+      of_twig = stream(in, i, site.place);
+      light = crown_light.at(i);
+      const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
+      twig_warmth = look.vigor_hue * weak * weak + tree_warmth;
+      twig_value = leaf_occlusion(light) * tree_value;
       blooming = blooms(in, bloom, site, crown_light);
       const Vec3 from = s.proximal(i), to = s.distal[i];
       const Vec3 branch = unit(to - from, kUp);
@@ -488,14 +496,14 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
       const Hanging hang = hanging(frame.heading, leaf_droop, out);
       const Vec3 toward = unit(glm::mix(hang.normal, out, look.sun_turn * light), kUp);
       const float ease = random.uniform(0.6f, 1.2f);
+      constexpr float kCoarse = 0.4f;  // of so many leaves none is looked at closely enough for more steps
       frame = turn_petiole(sunk(frame, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
-                           ease * look.turn);
+                           ease * look.turn, kCoarse);
     }
 
     // How it looks.
-    const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
-    const float warmth = look.vigor_hue * weak * weak + tree_warmth + mottle * random.uniform(-1.0f, 1.0f);
-    const float value = leaf_occlusion(light) * tree_value * random.uniform(0.88f, 1.0f);
+    const float warmth = twig_warmth + mottle * random.uniform(-1.0f, 1.0f);
+    const float value = twig_value * random.uniform(0.88f, 1.0f);
     const Vec3 tint = value * (wood || bunch ? Vec3(1.0f) : hue_turned(std::clamp(warmth, -1.0f, 1.0f)));
     const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
     // In a season with a bloom the atlas' first column shows it, the second is plain.
@@ -509,11 +517,11 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
 
     if (wood) {
       const float half = 0.5e-3f * leaf.twig_mm;
-      cards.add(at, frame.heading, 0.8f * twig_m, half, frame.left, -frame.left, frame.up, uv, colour, false);
+      cards.add(at, frame.heading, 0.8f * twig_m, half, frame.left, -frame.left, frame.up, out, uv, colour, false);
       continue;
     }
     if (bunch) {
-      cards.add(at, frame.heading, bunch_m, 0.5f * bunch_m, frame.left, -frame.left, frame.up, uv, colour, false);
+      cards.add(at, frame.heading, bunch_m, 0.5f * bunch_m, frame.left, -frame.left, frame.up, out, uv, colour, false);
       continue;
     }
     // A card that stands for many grows around its place, not out of the crown.
@@ -529,7 +537,7 @@ TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<
         f.up = turn.cos * frame.up - turn.sin * frame.left;
       }
       const Vec3 left = fold.cos * f.left - fold.sin * f.up, right = -fold.cos * f.left - fold.sin * f.up;
-      cards.add(foot, f.heading, length, half_width, left, right, f.up, uv, colour, folded);
+      cards.add(foot, f.heading, length, half_width, left, right, f.up, out, uv, colour, folded);
     }
   }
   assert(cards.mesh.triangles() == triangles);

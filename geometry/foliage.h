@@ -148,6 +148,7 @@ TriangleMesh mesh_foliage(const FoliageInput& input, FoliageLevel level, std::sp
 struct LeafFrame {
   Vec3 heading, left, up;
 };
-LeafFrame turn_petiole(LeafFrame frame, const Vec3& toward, float twist, float bend, float turn);
+/// `fineness` 1: a step for each half of the largest e, and four more.
+LeafFrame turn_petiole(LeafFrame frame, const Vec3& toward, float twist, float bend, float turn, float fineness = 1.0f);
 
 }  // namespace bosquet::geometry
