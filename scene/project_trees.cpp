@@ -96,8 +96,9 @@ class RowSink {
   void operator()(const char*, bool v) { integer(v); }
   void operator()(const char*, std::uint64_t v) { integer(std::bit_cast<std::int64_t>(v)); }
   void operator()(const char*, const std::string& v) { text(v); }
-  template <class Enum, std::size_t N>
-  void operator()(const char*, Enum v, const std::array<std::string_view, N>& names) {
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char*, Enum v, std::span<const std::string_view> names) {
     text(names[static_cast<std::size_t>(v)]);
   }
   void operator()(const char*, const SharedList<ParameterOverride>& list) {
@@ -196,10 +197,9 @@ struct Columns {
   void operator()(const char* name, bool) { all.emplace_back(name, "BOOLEAN"); }
   void operator()(const char* name, std::uint64_t) { all.emplace_back(name, "INTEGER"); }
   void operator()(const char* name, const std::string&) { all.emplace_back(name, "TEXT"); }
-  template <class Enum, std::size_t N>
-  void operator()(const char* name, Enum, const std::array<std::string_view, N>&) {
-    all.emplace_back(name, "TEXT");
-  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* name, Enum, std::span<const std::string_view>) { all.emplace_back(name, "TEXT"); }
   template <class Item>
   void operator()(const char* name, const SharedList<Item>&) {
     all.emplace_back(name, "TEXT");
@@ -251,8 +251,9 @@ class RowSource {
     if (!row_.is_text(c)) return wrong(name);
     v = row_.text(c);
   }
-  template <class Enum, std::size_t N>
-  void operator()(const char* name, Enum& v, const std::array<std::string_view, N>& names) {
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* name, Enum& v, std::span<const std::string_view> names) {
     const int c = next();
     if (c < 0) return;
     const auto found = std::find(names.begin(), names.end(), row_.text(c));
@@ -309,8 +310,9 @@ struct TextSink {
   void operator()(const char* name, bool v) { put(name, v ? "1" : "0"); }
   void operator()(const char* name, std::uint64_t v) { put(name, fmt::format("{}", v)); }
   void operator()(const char* name, const std::string& v) { put(name, v); }
-  template <class Enum, std::size_t N>
-  void operator()(const char* name, Enum v, const std::array<std::string_view, N>& words) {
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* name, Enum v, std::span<const std::string_view> words) {
     put(name, std::string(words[static_cast<std::size_t>(v)]));
   }
   void operator()(const char* name, const SharedList<ParameterOverride>& list) {
@@ -351,8 +353,9 @@ struct TextSource {
   void operator()(const char* field, std::string& v) {
     if (name == field) done = true, v = text;
   }
-  template <class Enum, std::size_t N>
-  void operator()(const char* field, Enum& v, const std::array<std::string_view, N>& words) {
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const char* field, Enum& v, std::span<const std::string_view> words) {
     if (name != field) return;
     const auto found = std::find(words.begin(), words.end(), text);
     if (found == words.end()) return;

@@ -42,8 +42,8 @@ struct Session {
 
 class KillTest : public ScratchTest {
  protected:
-  // Starts a session and kills it so long after its first word.
-  Session kill_after(std::uint64_t delay_us, std::uint64_t seed) {
+  // Starts a session and kills it so long after so many records, whatever else the machine has to do.
+  Session kill_after(std::size_t records, std::uint64_t delay_us, std::uint64_t seed) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
     const pid_t child = ::fork();
@@ -65,7 +65,7 @@ class KillTest : public ScratchTest {
       if (n > 0) bytes.append(some, static_cast<std::size_t>(n));
       return n > 0;
     };
-    while (bytes.empty() && take(10'000)) {
+    while (bytes.size() < records * sizeof(Record) && take(20'000)) {
     }
     EXPECT_FALSE(bytes.empty()) << "the session did not start";
     for (const std::uint64_t until = now_ns() + delay_us * 1000; now_ns() < until;)
@@ -92,7 +92,8 @@ TEST_F(KillTest, NothingOlderThanASecondIsLost) {
   RandomStream random(1, 5, Purpose::statistics);
   std::uint64_t edits = 0, in_a_save = 0, recovered_count = 0, lost = 0, oldest_lost_ns = 0;
   for (int n = 0; n < kills && !HasFailure(); ++n) {
-    const Session session = kill_after(random.below(n % 5 == 0 ? 5'000 : 120'000), static_cast<std::uint64_t>(n));
+    const Session session =
+        kill_after(1 + random.below(n % 5 == 0 ? 4 : 60), random.below(8'000), static_cast<std::uint64_t>(n));
     std::map<std::uint64_t, Record> edit;
     std::uint64_t saved = 0, saving = 0, durable = 0;
     for (const Record& r : session.said) {
