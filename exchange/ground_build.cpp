@@ -79,6 +79,7 @@ class Maker {
       ShapeOptions options;
       options.lines = options.clip = false;
       if (size_.x > 0) options.size_m = DVec2(size_);
+      options.makes_site = size_.x <= 0 && !recipe_.site_corner_given;
       auto shapes = read_shapes(recipe_.boundary_file, ground_.place, options);
       if (!shapes) return shapes.error();
       const std::string file = recipe_.boundary_file.string();

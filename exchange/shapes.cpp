@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <string_view>
 
 #include "exchange/site_frame.h"
 
@@ -232,6 +233,10 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
       if (shape && !read.add(*feature, number, *shape))
         return Error{fmt::format("{} has more than {} points; cut it to the site first", file, kMostPoints)};
     }
+    // Some formats look at the condition only when they are read.
+    if (CPLGetLastErrorType() >= CE_Failure && number == 0 && !options.where.empty())
+      return Error{fmt::format("{}: the condition \"{}\" cannot be asked of layer {}{}", file, options.where,
+                               layer->GetName(), Quiet::last())};
     if (CPLGetLastErrorType() >= CE_Failure)
       return Error{fmt::format("{} is damaged after feature {}{}", file, number, Quiet::last())};
     others += read.others;
@@ -239,7 +244,9 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
 
     FrameOf frame;
     frame.site = place, frame.size_m = options.size_m;
-    if (const OGRSpatialReference* crs = layer->GetSpatialRef()) {
+    // A GeoPackage without a reference system says "Undefined ..." of degrees or metres.
+    const OGRSpatialReference* crs = layer->GetSpatialRef();
+    if (crs && !(crs->GetName() && std::string_view(crs->GetName()).substr(0, 9) == "Undefined")) {
       char* wkt = nullptr;
       if (crs->exportToWkt(&wkt) == OGRERR_NONE && wkt) frame.crs_wkt = wkt;
       CPLFree(wkt);
@@ -248,6 +255,13 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
     auto on_site = onto_site(std::move(read.points), frame);
     if (!on_site) return Error{fmt::format("{}: {}", file, on_site.error().message)};
     if (on_site->place) out.place = place = *on_site->place;
+    if (options.makes_site) {
+      DVec2 corner(INFINITY);
+      for (const DVec2& p : on_site->plan)
+        if (std::isfinite(p.x) && std::isfinite(p.y)) corner = glm::min(corner, p);
+      for (DVec2& p : on_site->plan) p -= corner;
+      place.south_west += corner, out.place = place;
+    }
     for (std::string& note : on_site->notes)
       if (std::find(out.notes.begin(), out.notes.end(), note) == out.notes.end()) out.notes.push_back(std::move(note));
 

@@ -31,6 +31,7 @@ struct ShapeOptions {
   bool lines = true;                         ///< whether lines are wanted, too
   bool clip = true;                          ///< to the site and its margin
   std::optional<DVec2> size_m = {};          ///< of the site; without it nothing is cut
+  bool makes_site = false;                   ///< the site's corner moves to the south-west of the shapes
 };
 
 struct Shape {
