@@ -191,8 +191,14 @@ void a_moved_tree(benchmark::State& state) {
   state.counters["trees"] = static_cast<double>(touched) / runs;
   state.counters["internodes"] = static_cast<double>(internodes) / runs;
 }
-BENCHMARK(a_moved_tree)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(20)->Repetitions(3);
+BENCHMARK(a_moved_tree)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Iterations(20)
+    ->Repetitions(3);
 
 }  // namespace
 }  // namespace bosquet::scene
-
