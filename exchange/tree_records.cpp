@@ -57,10 +57,13 @@ std::vector<TreeRecord> tree_records(const scene::Document& document) {
 }
 
 std::vector<TreeRecord> tree_records(const scene::GrownScene& grown) {
-  std::vector<TreeRecord> out = tree_records(grown.document);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const scene::GrownTree& tree = grown.trees[i];
-    out[i].grown = GrownSizes{tree.measures.height_m, tree.measures.trunk_diameter_m, tree.measures.crown_diameter_m,
+  std::vector<TreeRecord> out = tree_records(grown.given);
+  // Both in the order of ids; trees to be removed are not among those that grew.
+  std::size_t i = 0;
+  for (TreeRecord& record : out) {
+    if (i >= grown.trees.size() || (*grown.document.trees)[i].id != record.id) continue;
+    const scene::GrownTree& tree = grown.trees[i++];
+    record.grown = GrownSizes{tree.measures.height_m, tree.measures.trunk_diameter_m, tree.measures.crown_diameter_m,
                               tree.age_years};
   }
   return out;

@@ -44,7 +44,7 @@ struct TreeRecord {
 };
 
 std::vector<TreeRecord> tree_records(const scene::Document& document);
-/// With what became of the trees.
+/// With what became of the trees; those to be removed are listed without, as they are not grown.
 std::vector<TreeRecord> tree_records(const scene::GrownScene& grown);
 
 /// The shortest decimal number x with float(x - origin) == offset.

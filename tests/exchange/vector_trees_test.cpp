@@ -87,7 +87,8 @@ std::string survey(int n, RandomStream& stream) {
                             "Acer platanoides 'Globosum'",
                             "\"Birke, \"\"hell\"\"\"",
                             "Fagus sp.",
-                            "\xc3\x89pic\xc3\xa9a",
+                            "\xc3\x89pic\xc3\xa9"
+                            "a",
                             "",
                             "Hickory"};
   std::string text = "Baum-Nr,east_m,north_m,species,height_m,dbh_cm,crown_m,clear_stem_m,status\n";
@@ -465,6 +466,23 @@ TEST(VectorTrees, PointsBlocksAndCirclesOfADrawingAreTrees) {
   std::vector<std::string> kinds;
   for (const scene::Tree& tree : *document.trees) kinds.push_back(document.species_of(tree).name);
   EXPECT_EQ(kinds, (std::vector<std::string>{"english_oak", "small_leaved_lime", "silver_birch"}));
+}
+
+TEST(TreeRecords, TreesToBeRemovedAreListedThoughTheyAreNotGrown) {
+  const ScratchFolder folder;
+  spit(folder / "t.csv",
+       "x,y,species,height_m,status\n4,4,rowan,4,existing\n8,8,rowan,5,fell\n12,4,rowan,3.5,proposed\n");
+  const scene::Document document = imported(empty_site({16, 12}, {}), folder / "t.csv");
+  const auto grown = scene::grow_scene(document, {}, nullptr);
+  ASSERT_TRUE(grown) << grown.error().message;
+  const auto records = tree_records(*grown);
+  ASSERT_EQ(records.size(), 3u);
+  EXPECT_FALSE(records[1].grown);
+  EXPECT_EQ(records[1].shown_height_m(), 5.0f);
+  for (const std::size_t i : {0, 2}) {
+    ASSERT_TRUE(records[i].grown);
+    EXPECT_NEAR(records[i].grown->height_m, records[i].height_m, 0.15f * records[i].height_m);
+  }
 }
 
 TEST(TreeRecords, MapCoordinatesAreTheShortestThatLeadBack) {
