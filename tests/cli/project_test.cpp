@@ -23,7 +23,7 @@ amplitude_m = 1.5
 name = "own_birch"
 like = "silver_birch"
 [species.growth]
-straightness = 0.7
+apical_dominance = 0.52
 [[species]]
 name = "english_oak"
 [[planting]]
