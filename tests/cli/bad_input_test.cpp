@@ -64,7 +64,7 @@ TEST_F(BadInput, AnOutputFolderThatIsNotThereIsToldBeforeAnyWork) {
   EXPECT_NE(ran.err.find("the folder nowhere does not exist"), std::string::npos);
   const Ran unknown = bosquet("make fine.toml -o out.docx");
   EXPECT_EQ(unknown.status, 1);
-  EXPECT_NE(unknown.err.find(".glb .gltf .png .csv .vdb"), std::string::npos);
+  EXPECT_NE(unknown.err.find(".csv .species.csv .gpkg .geojson .shp"), std::string::npos);
 }
 
 TEST_F(BadInput, ARasterWithoutDataIsRefusedByName) {
