@@ -83,7 +83,10 @@ void add_season(CLI::App* app, Options& o) {
 
 void add_growth(CLI::App* app, Options& o) {
   app->add_option("--seed", o.seed, "Seed in place of the recipe's")->check(whole())->option_text("S");
-  app->add_option("--year", o.grow.year, "Age in years at which trees are shown; default: grown up")
+  app->add_option("--year", o.years,
+                  "Age in years at which trees are shown; default: grown up. make takes several, like 5,15,40")
+      ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(within(0.0, 2000.0))
       ->option_text("N");
   add_detail(app, o);
@@ -262,6 +265,9 @@ ParsedLine parse_command_line(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
+    if (o.years.size() > 1 && o.command != Command::make)
+      throw CLI::ValidationError("--year", "one age; only make takes several, a set of files for each");
+    if (o.years.size() == 1) o.grow.year = o.years.front();
   } catch (const CLI::ParseError& e) {
     parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
   }

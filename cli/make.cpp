@@ -116,11 +116,11 @@ Result<std::uint64_t> write_one_tree(const Made& made, const path& target) {
 }
 
 Result<std::uint64_t> write_project_file(const Made& made, const path& target) {
-  return scene::write_project(made.grown.document, target);
+  return scene::write_project(made.grown.given, target);
 }
 
 Result<std::uint64_t> write_recipe_files(const Made& made, const path& target) {
-  auto written = exchange::write_recipe(made.grown.document, target);
+  auto written = exchange::write_recipe(made.grown.given, target);
   if (!written) return written.error();
   made.warnings.insert(made.warnings.end(), written->warnings.begin(), written->warnings.end());
   return written->bytes;
@@ -224,6 +224,18 @@ std::string readable_bytes(std::uint64_t bytes) {
                             : fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
 }
 
+// "park.plan.png" at 15 is "park-15.plan.png".
+path of_year(const path& target, float year) {
+  const std::string name = target.filename().string();
+  std::size_t end = name.size() - target.extension().string().size();
+  for (const std::string_view inner : {".plan", ".tree", ".species"})
+    if (const std::string_view stem = std::string_view(name).substr(0, end); stem.ends_with(inner)) {
+      end -= inner.size();
+      break;
+    }
+  return target.parent_path() / fmt::format("{}-{:g}{}", name.substr(0, end), year, name.substr(end));
+}
+
 Result<void> make_and_report(const Options& options) {
   if (auto fine = check_targets(options, options.command == Command::render); !fine) return fine;
   Report report;
@@ -253,7 +265,19 @@ Result<void> make_and_report(const Options& options) {
 
 }  // namespace
 
-Result<void> run_make(const Options& options) { return make_and_report(options); }
+Result<void> run_make(const Options& options) {
+  if (options.years.size() < 2) return make_and_report(options);
+  scene::SkeletonCache skeletons;  // years only change how much of a tree is shown
+  for (const float year : options.years) {
+    Options at = options;
+    at.grow.year = year;
+    at.grow.skeletons = &skeletons;
+    for (path& target : at.outputs) target = of_year(target, year);
+    if (!at.report.empty()) at.report = of_year(at.report, year);
+    if (auto done = make_and_report(at); !done) return done;
+  }
+  return {};
+}
 Result<void> run_render(const Options& options) { return make_and_report(options); }
 
 }  // namespace bosquet::cli

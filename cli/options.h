@@ -41,6 +41,7 @@ struct Options {
 
   // Scene.
   scene::GrowOptions grow;
+  std::vector<float> years;  ///< one: that of `grow`; several: make writes its outputs for each
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::optional<std::size_t> max_triangles;

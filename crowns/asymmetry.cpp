@@ -68,7 +68,7 @@ DVec2 pressure(std::span<const Claimant> trees, std::size_t me, const Neighbourh
   };
   std::vector<Press> presses;
   neighbourhood.near(i.base, [&](std::size_t n) {
-    if (n == me) return;
+    if (n == me || !trees[n].presses) return;
     const Claimant& j = trees[n];
     const DVec2 between = DVec2(i.base) - DVec2(j.base);
     const double distance = std::sqrt(between.x * between.x + between.y * between.y);

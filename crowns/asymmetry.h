@@ -9,6 +9,7 @@
 //           the ratio is averaged over layers by voxel count
 // Decision  A_j / A_i is capped, and so is |V_i|: eq. 6.3 gives 100 for a 2 m crown beside a 20 m one. Infinite caps
 //           give the source's rule
+// Decision  a tree that is kept cut to a form presses nobody: a hedge of a hundred plants would bend the avenue beside it
 // Decision  an obstacle presses like a neighbour with the part of its footprint that stands as high as the tree's crown
 //           base: T_j is the footprint's nearest point, A_j its area, r_ij goes with the tree's own crown width
 // Option    slope: slope_weight * sin(slope) downhill is added to V, as crowns lean down a hillside (Umeki 1995); off

@@ -59,6 +59,7 @@ struct Claimant {
   RepresentativeShape shape;
   float scale_height = 1.0f;  ///< S_h
   float scale_width = 1.0f;   ///< S_w
+  bool presses = true;        ///< on its neighbours (asymmetry.h); what is kept cut to a form does not
 
   float top_y() const { return ground_y + scale_height * shape.mature_height_m; }
   float trunk_radius_m() const { return 0.5f * scale_width * shape.trunk_width_m; }

@@ -18,7 +18,7 @@ namespace {
 using scene::TreeStatus;
 
 // A crown may overhang the site so far and still be drawn whole.
-constexpr double kOverhang_m = 10.0;
+constexpr double kOverhang_m = 4.0;
 // A trunk's dot is at least so wide, and a crown below this radius has no code beside its trunk.
 constexpr double kLeastDot_mm = 0.6, kLabelledRadius_mm = 3.5;
 constexpr float kCode_mm = 1.8f;
@@ -120,7 +120,7 @@ void draw_cross(PlanDrawing& plan, std::size_t layer, const Crown& crown, const 
 
 /// Crowns of one species and status: clipped ones joined, free ones each with its symbol.
 void draw_crowns(PlanDrawing& plan, std::size_t layer, const std::vector<const Crown*>& crowns, const Style& style,
-                 const SpeciesSymbol& symbol) {
+                 const SpeciesSymbol& symbol, double finest_mm = 1.0) {
   std::vector<std::vector<DVec2>> bodies;
   for (const Crown* crown : crowns) {
     if (!crown->clipped()) continue;
@@ -136,7 +136,7 @@ void draw_crowns(PlanDrawing& plan, std::size_t layer, const std::vector<const C
   }
   for (const Crown* crown : crowns) {
     if (!crown->clipped()) {
-      std::vector<std::vector<DVec2>> lines = symbol_lines(crown->outline, symbol, crown->base, plan.metres(1.0));
+      std::vector<std::vector<DVec2>> lines = symbol_lines(crown->outline, symbol, crown->base, plan.metres(finest_mm));
       PlanPath outline;
       outline.lines = {std::move(lines[0])};
       outline.pen = style.pen;
@@ -201,10 +201,10 @@ std::vector<PlanItem> key_sample(const Style& style, const SpeciesSymbol& symbol
   PlanDrawing paper;
   paper.scale = 1000;  // a metre stands for a millimetre
   Crown crown;
-  crown.outline = round_outline(4.8);
+  crown.outline = round_outline(5.4);
   crown.trunk_m = 0.6;
   crown.status = crossed ? TreeStatus::to_remove : TreeStatus::proposed;
-  draw_crowns(paper, 0, {&crown}, style, symbol);
+  draw_crowns(paper, 0, {&crown}, style, symbol, 0.35);  // finer than on the plan: the pattern must be seen
   return paper.items;
 }
 
@@ -301,7 +301,7 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
     std::vector<PlanItem> sample = key_sample(style_of(status), plain, status == TreeStatus::to_remove);
     if (status == TreeStatus::to_protect) {
       PlanCircle roots;
-      roots.radius_m = 3.0;
+      roots.radius_m = 3.2;
       roots.pen = {0.3f, kProtected, Dashes::dash_dot};
       sample.push_back({0, roots});
     }

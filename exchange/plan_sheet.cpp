@@ -20,9 +20,10 @@ constexpr PaperSize kPapers[] = {{scene::Paper::a4, "A4", {297, 210}},
                                  {scene::Paper::a2, "A2", {594, 420}},
                                  {scene::Paper::a1, "A1", {841, 594}},
                                  {scene::Paper::a0, "A0", {1189, 841}}};
-constexpr int kScales[] = {50, 100, 200, 250, 500, 1000, 2000, 2500, 5000, 10'000, 20'000, 25'000, 50'000, 100'000};
+constexpr int kScales[] = {50,   100,  200,  250,    300,    400,    500,    1000,
+                           2000, 2500, 5000, 10'000, 20'000, 25'000, 50'000, 100'000};
 
-double panel_mm(DVec2 paper_mm) { return std::clamp(0.22 * paper_mm.x, 62.0, 110.0); }
+double panel_mm(DVec2 paper_mm) { return std::clamp(0.19 * paper_mm.x, 62.0, 100.0); }
 /// What is left for the plan itself.
 DVec2 field_mm(DVec2 paper_mm) {
   return {paper_mm.x - 2 * kMargin_mm - panel_mm(paper_mm) - 3 * kGap_mm, paper_mm.y - 2 * kMargin_mm - 2 * kGap_mm};

@@ -121,7 +121,7 @@ std::vector<std::vector<DVec2>> symbol_lines(const CrownOutline& crown, const Sp
                                              double finest_m) {
   const double mean = crown.mean();
   // Features of about the same size on crowns of every size, and none too small to be seen.
-  const double feature_m = std::max({3.5 * finest_m, 0.25 * mean, 0.3});
+  const double feature_m = std::max({2.5 * finest_m, 0.3 * mean});
   const int lobes = std::clamp(static_cast<int>(kTurn * mean / feature_m + 0.5), 6, 28);
   const int points = lobes * 8;
   const auto radius = [&](double turn) {
@@ -181,7 +181,10 @@ std::vector<std::string> species_codes(const std::vector<std::string>& botanical
   std::vector<std::string> codes;
   std::set<std::string> taken;
   for (const std::string& name : botanical_names) {
-    const std::size_t space = name.find(' ');
+    std::size_t space = name.find(' ');
+    // A cross between them tells a hybrid: "Platanus x hispanica".
+    for (const std::string_view cross : {" x ", " × "})
+      if (space != std::string::npos && name.compare(space, cross.size(), cross) == 0) space += cross.size() - 1;
     const std::string second =
         space == std::string::npos ? name.substr(std::min<std::size_t>(1, name.size())) : name.substr(space + 1);
     std::string letters;

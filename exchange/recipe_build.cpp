@@ -351,7 +351,10 @@ class Planter {
                             : block.scale;
     const auto refusal = distribution::plant_one(planting_, key, species, block.at, scale);
     // A tree that is set into a building by hand stays, and is warned about when the space is divided.
-    const bool in_building = refusal == distribution::Refusal::built_over;
+    // So does one that stands there already, on what is a lawn or will be a path.
+    const bool in_building = refusal == distribution::Refusal::built_over ||
+                             (block.order.status != scene::TreeStatus::proposed &&
+                              refusal == distribution::Refusal::excluded);
     if (in_building)
       planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, scale));
     if (refusal == distribution::Refusal::none || in_building)

@@ -35,7 +35,8 @@ std::vector<crowns::Claimant> claimants(const Document& document) {
           std::min(std::max(tree.form.clipped() ? 0.0f : shape.trunk_height_m, tree.clear_stem_m / tree.scale_height),
                    kHighestCrownBase * shape.mature_height_m);
     claims.push_back(
-        {tree.key, tree.id, tree.at, document.terrain->ground(tree.at), shape, tree.scale_height, tree.scale_width});
+        {tree.key, tree.id, tree.at, document.terrain->ground(tree.at), shape, tree.scale_height, tree.scale_width,
+         !tree.form.clipped()});
   }
   return claims;
 }

@@ -53,6 +53,27 @@ TEST_F(Commands, TheSkeletonsHaveTheSameBitsInEveryBuild) {
   EXPECT_EQ(json("r.json")["skeleton_digest"], "8ff028ef84fc1032");
 }
 
+TEST_F(Commands, SeveralYearsGiveASetOfFilesForEach) {
+  const Ran ran = bosquet("make grove.toml -o g.csv -o g.plan.png --year 5,60 --report r.json --quiet");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_LT(json("r-5.json")["internodes"], json("r-60.json")["internodes"]);
+  EXPECT_EQ(json("r-5.json")["skeleton_digest"], json("r-60.json")["skeleton_digest"]);
+  for (const char* file : {"g-5.csv", "g-60.csv", "g-5.plan.png", "g-60.plan.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / file)) << file;
+  // One of them is the file that its year alone gives.
+  ASSERT_EQ(bosquet("make grove.toml -o alone.csv --year 5 --quiet").status, 0);
+  EXPECT_EQ(file_text(folder_ / "alone.csv"), file_text(folder_ / "g-5.csv"));
+  EXPECT_EQ(bosquet("stats grove.toml --year 5,60").status, 1);
+}
+
+TEST_F(Commands, TreesNearerThanTheRecipesClearanceAreNamed) {
+  write("near.toml", file_text(folder_ / "grove.toml") + "[clearance]\nedge_m = 6\n");
+  const Ran ran = bosquet("make near.toml -o g.svg -o g.dxf --report r.json");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("m from the edge of the site; the rule is 6 m"), std::string::npos) << ran.err;
+  EXPECT_EQ(json("r.json")["warnings"].size(), 9u) << "no place of a site of 12 m is 6 m from its edge";
+}
+
 TEST_F(Commands, WithoutAWindowTheCommandSaysSoInOneLine) {
   for (const char* line : {"", "ui"}) {
     const Ran ran = bosquet(line);

@@ -127,7 +127,8 @@ TEST(PlanSheet, TheSmallestSheetIsTakenOnWhichTheScaleIsGood) {
     return plan->paper + " 1:" + std::to_string(plan->scale);
   };
   EXPECT_EQ(chosen({50, 40}), "A3 1:200");
-  EXPECT_EQ(chosen({120, 100}), "A3 1:500");
+  EXPECT_EQ(chosen({120, 100}), "A3 1:400");
+  EXPECT_EQ(chosen({140, 110}), "A3 1:500");
   EXPECT_EQ(chosen({200, 150}), "A2 1:500");
   EXPECT_EQ(chosen({280, 240}), "A1 1:500");
   EXPECT_EQ(chosen({1000, 500}), "A1 1:2000");
