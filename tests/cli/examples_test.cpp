@@ -38,6 +38,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Example{"riverbank", 252, 150 * kMega}, Example{"single_oak", 1, 100 * kMega},
                       Example{"single_birch", 1, 100 * kMega}, Example{"single_spruce", 1, 100 * kMega},
                       Example{"single_willow", 1, 100 * kMega}, Example{"facade", 7, 150 * kMega},
+                      Example{"avenue", 665, 150 * kMega}, Example{"park", 283, 150 * kMega},
+                      Example{"existing_site", 183, 150 * kMega},
                       Example{"giant", 13, 150 * kMega}, Example{"closed_stand", 99, 150 * kMega},
                       Example{"plots/plot_10", 10, 150 * kMega}, Example{"plots/plot_30", 30, 150 * kMega},
                       Example{"plots/plot_100", 100, 150 * kMega}, Example{"plots/plot_300", 300, 150 * kMega},
