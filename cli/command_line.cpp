@@ -261,7 +261,13 @@ ParsedLine parse_command_line(int argc, char** argv) {
     if (gallery->count("--size") == 0) o.width = 3200, o.height = 4800;
   });
 
-  app.add_subcommand("ui", "The window (not in this build)");
+  CLI::App* window = app.add_subcommand("ui", "The window; also what bosquet alone opens");
+  window->add_option("file", o.file, "Project (.bosquet) or recipe (.toml)")->option_text("FILE");
+  window->add_option("--script", o.script, "Replays the events of a file, then closes")->option_text("FILE");
+  window->add_option("--screenshot", o.screenshot, "Saves the window's last frame as a picture")->option_text("OUT.png");
+  window->add_option("--report", o.report, "Writes the seconds of its frames as JSON")->option_text("FILE.json");
+  add_threads(window, o);
+  window->callback([&] { o.command = Command::ui; });
 
   try {
     app.parse(argc, argv);

@@ -18,6 +18,8 @@ Result<void> run_info(const Options& options);
 Result<void> run_import(const Options& options);
 /// The same into a project (.bosquet), obstacles too.
 Result<void> import_into_project(const Options& options);
+/// `bosquet` and `bosquet ui`: the window.
+Result<void> run_ui(const Options& options);
 /// `bosquet recover list`: what sessions left that ended without saving, on stdout.
 Result<void> run_recover_list(const Options& options);
 /// `bosquet recover NAME -o FILE`: saves one of them as a project.

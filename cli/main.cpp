@@ -36,10 +36,10 @@ Result<void> run(const cli::Options& options) {
     case cli::Command::species_gallery:
       return cli::run_gallery(options);
     case cli::Command::none:
+    case cli::Command::ui:
       break;
   }
-  return Error{
-      "this build has no window; grow a recipe with: bosquet make RECIPE.toml -o OUT.glb (bosquet --help lists all)"};
+  return cli::run_ui(options);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ enum class Command {
   render,
   info,
   import_data,
+  ui,
   recover_list,
   recover,
   stats,
@@ -60,6 +61,9 @@ struct Options {
   std::filesystem::path dem, inventory, obstacle;
 
   std::string recovery;  ///< name of what is recovered
+
+  // Window.
+  std::filesystem::path script, screenshot;
 
   // Calibration and gallery.
   std::vector<float> ages;

@@ -6,7 +6,7 @@ set -euo pipefail
 build=(g++ cmake ninja-build pkg-config ccache
   libopenvdb-dev libboost-iostreams-dev zlib1g-dev libtbb-dev libgdal-dev libglm-dev libtinygltf-dev libmeshoptimizer-dev
   libstb-dev libtomlplusplus-dev libsqlite3-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev libjpeg-dev
-  libcairo2-dev fonts-dejavu-core
+  libcairo2-dev fonts-dejavu-core fonts-inter fonts-font-awesome
   libglfw3-dev libimgui-dev
   libegl-dev libopengl-dev libgl-dev libgl1-mesa-dri
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev)

@@ -4,9 +4,6 @@
 // Who       the window makes them from GLFW's callbacks, a script from a text file, tests by hand
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "core/vec.h"
 
 namespace bosquet::ui {
@@ -31,6 +28,7 @@ enum Key : int {
   kKeyDown,
   kKeyUp,
   kKeyHome,
+  kKeyEnd,
   kKeySpace,
   kKeyNumpad0,  ///< and the nine after it
   kKeyNumpad9 = kKeyNumpad0 + 9,
@@ -39,13 +37,13 @@ enum Key : int {
 };
 
 struct Event {
-  enum class Kind { move, press, release, scroll, key_press, key_release };
+  enum class Kind { move, press, release, scroll, key_press, key_release, text };
   Kind kind = Kind::move;
   Vec2 at{0.0f};  ///< pointer
   Button button = Button::none;
-  int key = kKeyNone;
-  float scroll = 0;  ///< notches, up and away above 0
-  Modifiers modifiers;
+  int key = kKeyNone;  ///< of text: its code point
+  float scroll = 0;    ///< notches, up and away above 0
+  Modifiers modifiers = {};
   double time_s = 0;
 };
 

@@ -25,7 +25,8 @@ const std::map<std::string, Names> kMayInclude{
     {"scene", {"core", "terrain", "distribution", "crowns", "growth", "geometry"}},
     {"exchange", {"core", "terrain", "distribution", "crowns", "growth", "geometry", "scene"}},
     {"render", {"core", "terrain", "crowns", "growth", "geometry", "scene"}},
-    {"cli", {"core", "terrain", "distribution", "crowns", "growth", "geometry", "scene", "exchange", "render"}}};
+    {"ui", {"core", "terrain", "distribution", "crowns", "growth", "geometry", "scene", "exchange", "render"}},
+    {"cli", {"core", "terrain", "distribution", "crowns", "growth", "geometry", "scene", "exchange", "render", "ui"}}};
 
 void for_each_line(const std::string& folder,
                    const std::function<void(const std::string& file, int number, const std::string& line)>& visit) {

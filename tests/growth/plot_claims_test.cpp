@@ -33,7 +33,7 @@ const Stand& plot_100() {
     const crowns::CrownSpace space =
         *crowns::divide_space(scene::claimants(s.document), *s.document.terrain, s.document.space, nullptr);
     const std::vector<Vec3> asymmetry = crowns::neighbourhood_asymmetry(space, s.document.asymmetry);
-    const std::vector<scene::Tree>& trees = *s.document.trees;
+    const scene::Trees& trees = *s.document.trees;
     for (std::size_t t = 0; t < trees.size(); ++t) {
       s.regions.push_back(crowns::region(space, t));
       GrowthInput input;

@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+
+#include "ui/panels/panels.h"
+#include "ui/widgets/fields.h"
+
+// What is asked in the middle of the window, the export dialog, and the first steps.
+namespace bosquet::ui {
+namespace {
+
+void centre_next(const Layout& layout, float width) {
+  ImGui::SetNextWindowPos({0.5f * layout.screen.x, 0.45f * layout.screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({width * layout.scale, 0}, ImGuiCond_Always);
+}
+
+constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings;
+
+// The grown scene of the session as it stands, for files.
+scene::GrownScene grown_scene(App& app) {
+  scene::GrownScene grown;
+  grown.document = *app.session().document();
+  for (const scene::Tree& tree : *grown.document.trees) {
+    const auto found = app.view().grown().find(tree.id);
+    grown.trees.push_back(found != app.view().grown().end() ? found->second.grown : scene::GrownTree{});
+  }
+  return grown;
+}
+
+}  // namespace
+
+void App::export_to(const std::filesystem::path& file) { export_.start(grown_scene(*this), export_settings_, file); }
+
+void Panels::export_dialog(App& app, const Layout& layout) {
+  Session& s = *app.session_;
+  const char* title = "Export as glTF";
+  if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+  centre_next(layout, 430);
+  if (!ImGui::BeginPopupModal(title, &app.show_export_, kDialog)) return;
+  ExportSettings& e = app.export_settings_;
+  int preset = static_cast<int>(e.preset);
+  if (ImGui::Combo("For", &preset, "Everything\0Blender\0Unreal / Unity\0Web\0"))
+    e.preset = static_cast<ExportPreset>(preset);
+  static constexpr std::array<const char*, 4> kPresets{
+      "Opens everywhere: plain meshes and textures.", "Plain meshes, as Blender reads them.",
+      "Plain, each tree with its levels of detail as nodes.",
+      "Small: leaves instanced, everything packed. Needs a viewer that knows meshopt, such as three.js."};
+  ImGui::TextWrapped("%s", kPresets[static_cast<std::size_t>(preset)]);
+  ImGui::SliderInt("Triangles at most", &e.max_triangles, 50'000, 20'000'000, "%d", ImGuiSliderFlags_Logarithmic);
+  const bool ready = s.pipeline().idle();
+  if (!ready) {
+    ImGui::TextDisabled("The trees are still growing...");
+  } else {
+    const ExportSize size = estimate(grown_scene(app), e);
+    ImGui::Text("About %s triangles and %s",
+                fmt::format("{:.2f} million", static_cast<double>(size.triangles) / 1e6).c_str(),
+                fmt::format("{:.0f} MB", static_cast<double>(size.bytes) / 1e6).c_str());
+  }
+  ImGui::BeginDisabled(!ready || app.export_.running());
+  if (ImGui::Button("Choose file...", {140 * layout.scale, 0})) {
+    app.show_export_ = false;
+    ImGui::CloseCurrentPopup();
+    app.chooser_.ask(FileChooser::Mode::save, "Export", {".glb", ".gltf"}, s.name() + ".glb",
+                     [&app](const std::filesystem::path& file) { app.export_to(file); });
+  }
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {90 * layout.scale, 0})) app.show_export_ = false, ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void Panels::questions(App& app, const Layout& layout) {
+  Session& s = *app.session_;
+  using Ask = App::Ask;
+  if (app.ask_ == Ask::nothing || app.chooser_.open()) return;
+  const auto done = [&] {
+    app.ask_ = Ask::nothing;
+    app.then_ = {};
+    ImGui::CloseCurrentPopup();
+  };
+
+  if (app.ask_ == Ask::many_trees) {
+    if (!ImGui::IsPopupOpen("So many trees?")) ImGui::OpenPopup("So many trees?");
+    centre_next(layout, 380);
+    if (!ImGui::BeginPopupModal("So many trees?", nullptr, kDialog)) return;
+    ImGui::TextWrapped("This would plant about %zu trees. Growing them takes long and much memory.", s.asked_trees());
+    if (ImGui::Button("Plant them", {130 * layout.scale, 0})) {
+      done();
+      s.confirm_trees(app.view_size_);
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Do not", {130 * layout.scale, 0})) {
+      done();
+      s.decline_trees();
+    }
+    ImGui::EndPopup();
+    return;
+  }
+
+  if (app.ask_ == Ask::recover) {
+    if (!ImGui::IsPopupOpen("Recover")) ImGui::OpenPopup("Recover");
+    centre_next(layout, 480);
+    if (!ImGui::BeginPopupModal("Recover", nullptr, kDialog)) return;
+    ImGui::TextWrapped("Bosquet ended before this was saved:");
+    std::optional<std::size_t> chosen;
+    for (std::size_t i = 0; i < app.recoveries_.size(); ++i) {
+      const scene::Recovery& r = app.recoveries_[i];
+      const std::string name = r.project.empty() ? "a new document" : r.project.filename().string();
+      ImGui::Text("%s, %s, %zu edits", name.c_str(), scene::time_words(r.time).c_str(),
+                  static_cast<std::size_t>(r.edits));
+      ImGui::SameLine(350 * layout.scale);
+      ImGui::PushID(static_cast<int>(i));
+      if (ImGui::Button("Recover", {110 * layout.scale, 0})) chosen = i;
+      ImGui::PopID();
+    }
+    if (chosen) {
+      if (auto recovered = s.recover(app.recoveries_[*chosen]); !recovered)
+        app.say(recovered.error().message);
+      else
+        app.say("Recovered. Save it under a name to keep it.");
+      done();
+    }
+    if (ImGui::Button("Not now")) done();
+    explain("The file is kept and offered again, also by: bosquet recover list");
+    ImGui::EndPopup();
+    return;
+  }
+
+  // Something that would lose unsaved work.
+  if (!ImGui::IsPopupOpen("Unsaved work")) ImGui::OpenPopup("Unsaved work");
+  centre_next(layout, 420);
+  if (!ImGui::BeginPopupModal("Unsaved work", nullptr, kDialog)) return;
+  ImGui::TextWrapped("%s was changed and is not saved.", s.name().c_str());
+  const auto then = app.then_;
+  if (ImGui::Button("Save", {120 * layout.scale, 0})) {
+    done();
+    save(app, then);
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Do not save", {120 * layout.scale, 0})) {
+    done();
+    if (then) then();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {120 * layout.scale, 0})) done();
+  ImGui::EndPopup();
+}
+
+void Panels::first_run(App& app, const Layout& layout) {
+  if (app.overlay_step_ < 0 || app.ask_ != App::Ask::nothing) return;
+  struct Step {
+    const char* title;
+    const char* text;
+    Vec2 at;  ///< of the card's upper left, in the window
+  };
+  const float left = layout.left + 24 * layout.scale, top = layout.menu + layout.top + 24 * layout.scale;
+  const float right = layout.screen.x - layout.right - 344 * layout.scale;
+  const std::array<Step, 5> steps{{
+      {"Look around",
+       "Drag with the right button to turn, with the middle one to move, and use the wheel to come nearer. "
+       "Press C to walk at eye height.",
+       {left, top}},
+      {"Shape the ground",
+       "Raise and lower it with the arrow tools above; [ and ] change the brush. The water tool sets "
+       "the level of water.",
+       {left + 200 * layout.scale, top}},
+      {"Paint a forest",
+       "Choose on the left what is planted, drag sideways for more or less of a species, take the brush "
+       "above and paint. Shapes stand at once, trees grow behind them.",
+       {left, top + 120 * layout.scale}},
+      {"Change one tree",
+       "Click a tree to see it on the right. Its dials change how it grows; only that tree grows again. "
+       "Drag it to move it.",
+       {right, top}},
+      {"Keep it",
+       "Every edit can be undone with Ctrl+Z, and nothing is lost if the program ends. Save with Ctrl+S, export "
+       "with Ctrl+E.",
+       {right, top + 160 * layout.scale}},
+  }};
+  const Step& step = steps[static_cast<std::size_t>(app.overlay_step_)];
+  ImGui::SetNextWindowPos({step.at.x, step.at.y});
+  ImGui::SetNextWindowSize({320 * layout.scale, 0});
+  ImGui::SetNextWindowBgAlpha(0.96f);
+  ImGui::Begin("first steps", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize);
+  if (app.fonts_.heading) ImGui::PushFont(app.fonts_.heading);
+  ImGui::Text("%d of 5   %s", app.overlay_step_ + 1, step.title);
+  if (app.fonts_.heading) ImGui::PopFont();
+  ImGui::TextWrapped("%s", step.text);
+  if (ImGui::Button(app.overlay_step_ == 4 ? "Begin" : "Next", {110 * layout.scale, 0}))
+    app.overlay_step_ = app.overlay_step_ == 4 ? -1 : app.overlay_step_ + 1;
+  ImGui::SameLine();
+  if (app.overlay_step_ >= 0 && app.overlay_step_ < 4 && ImGui::Button("Skip", {110 * layout.scale, 0}))
+    app.overlay_step_ = -1;
+  ImGui::End();
+}
+
+}  // namespace bosquet::ui

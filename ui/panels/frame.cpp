@@ -1,0 +1,395 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "ui/panels/panels.h"
+#include "ui/widgets/fields.h"
+
+// The window's frame: menu, tools, status, and what lies over them for a moment.
+namespace bosquet::ui {
+
+bool begin_panel(const char* name, Vec2 low, Vec2 size) {
+  ImGui::SetNextWindowPos({low.x, low.y});
+  ImGui::SetNextWindowSize({size.x, size.y});
+  return ImGui::Begin(name, nullptr,
+                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                          ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings);
+}
+
+void end_panel() { ImGui::End(); }
+
+void Panels::ask_open(App& app) {
+  app.chooser_.ask(FileChooser::Mode::open, "Open", {".bosquet", ".toml"}, "",
+                   [&app](const std::filesystem::path& file) { app.open_file(file); });
+}
+
+void Panels::ask_save_as(App& app, std::function<void()> then) {
+  app.chooser_.ask(FileChooser::Mode::save, "Save as", {".bosquet"}, app.session_->name() + ".bosquet",
+                   [&app, then](const std::filesystem::path& file) {
+                     if (auto saved = app.session_->save_as(file); !saved)
+                       app.say(saved.error().message);
+                     else {
+                       app.say("Saved " + file.filename().string());
+                       if (then) then();
+                     }
+                   });
+}
+
+void Panels::save(App& app, std::function<void()> then) {
+  if (!app.session_->has_file() || !app.session_->read_only().empty()) {
+    ask_save_as(app, std::move(then));
+    return;
+  }
+  if (auto saved = app.session_->save(); !saved) {
+    app.say(saved.error().message);
+    return;
+  }
+  app.say("Saved " + app.session_->path().filename().string());
+  if (then) then();
+}
+
+void Panels::menu(App& app, Layout& layout) {
+  Session& s = *app.session_;
+  if (!ImGui::BeginMainMenuBar()) return;
+  layout.menu = ImGui::GetWindowHeight();
+  if (ImGui::BeginMenu("File")) {
+    if (ImGui::BeginMenu("New")) {
+      for (const std::string& name : template_names())
+        if (ImGui::MenuItem(name.c_str()))
+          app.run_guarded(
+              [&app, name] {
+                if (auto made = make_template(name))
+                  app.session_->start(std::move(*made), "Untitled");
+                else
+                  app.say(made.error().message);
+              },
+              App::Ask::start);
+      ImGui::EndMenu();
+    }
+    if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(app);
+    if (ImGui::BeginMenu("Open recent", !app.recent_.empty())) {
+      for (const std::filesystem::path& file : std::vector(app.recent_))
+        if (ImGui::MenuItem(file.filename().string().c_str())) app.open_file(file);
+      ImGui::EndMenu();
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Save", "Ctrl+S")) save(app);
+    if (ImGui::MenuItem("Save as...", "Ctrl+Shift+S")) ask_save_as(app);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Export...", "Ctrl+E")) app.show_export_ = true;
+    ImGui::Separator();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) app.run_guarded([&app] { app.ended_ = true; }, App::Ask::close);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Edit")) {
+    const scene::History& h = s.history();
+    const std::string undo = h.can_undo() ? "Undo " + h.undo_name() : "Undo";
+    const std::string redo = h.can_redo() ? "Redo " + h.redo_name() : "Redo";
+    if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, h.can_undo())) s.undo();
+    if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, h.can_redo())) s.redo();
+    ImGui::MenuItem("History", "Ctrl+H", &app.show_history_);
+    ImGui::Separator();
+    const bool any = !s.selection().empty();
+    if (ImGui::MenuItem("Delete", "Delete", false, any)) {
+      s.apply(scene::remove_trees(*s.document(), s.selection()));
+    }
+    if (ImGui::MenuItem("Lock", "Ctrl+L", false, any)) s.apply(scene::lock_trees(*s.document(), s.selection(), true));
+    if (ImGui::MenuItem("Unlock", nullptr, false, any)) s.apply(scene::lock_trees(*s.document(), s.selection(), false));
+    if (ImGui::MenuItem("Keep as hero", nullptr, false, s.selected_tree() != nullptr)) keep_as_hero(app);
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("View")) {
+    for (std::size_t k = 0; k < kShowNames.size(); ++k)
+      if (ImGui::MenuItem(kShowNames[k].data(), nullptr, app.view_->show == static_cast<Show>(k))) {
+        app.view_->show = static_cast<Show>(k);
+        const bool flat = k >= static_cast<std::size_t>(Show::regions);
+        s.rig.show_plan(flat);
+      }
+    ImGui::Separator();
+    const std::pair<const char*, std::pair<const char*, StandardView>> looks[] = {
+        {"From the south", {"Num 1", StandardView::south}}, {"From the north", {"Num 9", StandardView::north}},
+        {"From the east", {"Num 3", StandardView::east}},   {"From the west", {"Num 6", StandardView::west}},
+        {"From above", {"Num 7", StandardView::top}},       {"Oblique", {"Num 5", StandardView::oblique}}};
+    for (const auto& [name, look] : looks)
+      if (ImGui::MenuItem(name, look.first)) s.rig.look(look.second);
+    if (ImGui::MenuItem("Walk", "C", s.rig.walking())) s.rig.walk(!s.rig.walking(), *s.document()->terrain);
+    if (!s.document()->cameras.empty() && ImGui::BeginMenu("Cameras")) {
+      for (const scene::Camera& camera : s.document()->cameras)
+        if (ImGui::MenuItem(camera.name.c_str())) s.rig.look(camera);
+      ImGui::EndMenu();
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Dark", nullptr, app.dark_)) {
+      app.dark_ = !app.dark_;
+      apply_theme(app.dark_, app.scale_);
+    }
+    ImGui::EndMenu();
+  }
+  if (ImGui::BeginMenu("Help")) {
+    ImGui::MenuItem("Shortcuts", "F1", &app.show_shortcuts_);
+    if (ImGui::MenuItem("First steps")) app.overlay_step_ = 0;
+    ImGui::EndMenu();
+  }
+  const std::string title = app.title();
+  const float width = ImGui::CalcTextSize(title.c_str()).x;
+  ImGui::SameLine(layout.screen.x - width - 16 * layout.scale);
+  ImGui::TextDisabled("%s", title.c_str());
+  ImGui::EndMainMenuBar();
+}
+
+namespace {
+
+const char* symbol(ToolKind kind) {
+  switch (kind) {
+    case ToolKind::select:
+      return "\xef\x89\x85";  // mouse-pointer
+    case ToolKind::plant_brush:
+      return "\xef\x87\xbc";  // paint-brush
+    case ToolKind::single:
+      return "\xef\x86\xbb";  // tree
+    case ToolKind::row:
+      return "\xef\x83\xb6";  // align: ellipsis-like
+    case ToolKind::grid:
+      return "\xef\x80\x8a";  // th
+    case ToolKind::hedge:
+      return "\xef\x83\x89";  // bars
+    case ToolKind::fill:
+      return "\xef\x95\x86";  // draw polygon, missing in old fonts
+    case ToolKind::erase:
+      return "\xef\x84\xad";  // eraser
+    case ToolKind::raise:
+      return "\xef\x81\xa2";  // arrow-up
+    case ToolKind::lower:
+      return "\xef\x81\xa3";  // arrow-down
+    case ToolKind::measure:
+      return "\xef\x81\xae";  // expand
+    default:
+      return nullptr;
+  }
+}
+
+const char* short_name(ToolKind kind) {
+  static constexpr const char* kNames[] = {"Select", "Paint", "Tree",  "Row",   "Grid",   "Hedge",
+                                           "Fill",   "Erase", "Raise", "Lower", "Smooth", "Flatten",
+                                           "Rough",  "Free",  "Plant", "Water", "Measure"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+void radius_field(ToolSettings& t) {
+  ImGui::SetNextItemWidth(130 * ImGui::GetFontSize() / 15);
+  ImGui::SliderFloat("Radius", &t.radius_m, kLeastRadius_m, 100.0f, "%.1f m",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  explain("Radius of the brush; [ and ] change it");
+  ImGui::SameLine();
+}
+
+void number(const char* label, float& value, float low, float high, const char* format, const char* meaning) {
+  ImGui::SetNextItemWidth(105 * ImGui::GetFontSize() / 15);
+  ImGui::SliderFloat(label, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+  explain(meaning);
+  ImGui::SameLine();
+}
+
+void row_fields(distribution::RowRules& row) {
+  number("Spacing", row.spacing_m, 0.3f, 30.0f, "%.1f m", "Distance from tree to tree along the row");
+  int sides = static_cast<int>(row.sides);
+  ImGui::SetNextItemWidth(90 * ImGui::GetFontSize() / 15);
+  if (ImGui::Combo("Sides", &sides, "On the line\0Left\0Right\0Both\0"))
+    row.sides = static_cast<distribution::RowSides>(sides);
+  ImGui::SameLine();
+  if (row.sides != distribution::RowSides::on_line)
+    number("Offset", row.offset_m, 0.0f, 30.0f, "%.1f m", "Distance of the rows from the line");
+  number("Jitter", row.jitter_m, 0.0f, 5.0f, "%.1f m", "Largest distance of a tree from its place");
+}
+
+}  // namespace
+
+void Panels::toolbar(App& app, const Layout& layout) {
+  Session& s = *app.session_;
+  ToolSettings& t = s.settings;
+  if (begin_panel("tools", {0, layout.menu}, {layout.screen.x, layout.top})) {
+    const float button = 30 * layout.scale;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {3 * layout.scale, 0});
+    for (int k = 0; k < kToolCount; ++k) {
+      const auto kind = static_cast<ToolKind>(k);
+      const ToolInfo& info = tool_info(kind);
+      if (k == 1 || k == 8 || k == 13 || k == 16) {
+        ImGui::Dummy({5 * layout.scale, button});
+        ImGui::SameLine();
+      }
+      const bool held = s.tool_kind() == kind;
+      if (held) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+      const char* sign = app.fonts_.icons ? symbol(kind) : nullptr;
+      const bool drawn = sign && kind != ToolKind::fill && kind != ToolKind::row && kind != ToolKind::measure;
+      const std::string label = std::string(drawn ? sign : short_name(kind)) + "##" + std::string(info.name);
+      if (ImGui::Button(label.c_str(), {drawn ? button : 0, button})) s.take(kind);
+      if (held) ImGui::PopStyleColor();
+      explain(fmt::format("{} ({})\n{}", info.name, static_cast<char>(info.key), info.hint));
+      ImGui::SameLine();
+    }
+    ImGui::PopStyleVar();
+    ImGui::Dummy({8 * layout.scale, button});
+    ImGui::SameLine();
+    // What the tool in hand can be told, and nothing of the others.
+    const ToolInfo& info = tool_info(s.tool_kind());
+    if (info.has_radius) radius_field(t);
+    switch (s.tool_kind()) {
+      case ToolKind::plant_brush:
+        number("Strength", t.plant.strength, 0.02f, 1.0f, "%.2f", "Trees that the brush plants in a second");
+        break;
+      case ToolKind::single:
+        number("Size", t.scale, 0.1f, 1.2f, "%.2f", "Share of the mature size");
+        break;
+      case ToolKind::row:
+        row_fields(t.row);
+        break;
+      case ToolKind::hedge:
+        row_fields(t.hedge);
+        break;
+      case ToolKind::grid:
+        number("Spacing", t.grid.spacing_m, 0.5f, 30.0f, "%.1f m", "Distance from tree to tree along a row");
+        number("Rows", t.grid.row_gap_m, 0.5f, 30.0f, "%.1f m", "Distance from row to row");
+        number("Turn", t.grid.rotation_deg, -90.0f, 90.0f, "%.0f\xc2\xb0", "Turn of the grid");
+        break;
+      case ToolKind::fill:
+        ImGui::SetNextItemWidth(140 * layout.scale);
+        ImGui::SliderFloat("Density", &t.per_hectare, 10, 10000, "%.0f / ha", ImGuiSliderFlags_Logarithmic);
+        explain("Trees on each hectare");
+        ImGui::SameLine();
+        break;
+      case ToolKind::raise:
+      case ToolKind::lower:
+      case ToolKind::noise:
+        number("Height", t.ground.amount_m, 0.1f, 10.0f, "%.1f m",
+               "Height that a stroke adds or takes at full strength");
+        [[fallthrough]];
+      case ToolKind::smooth:
+      case ToolKind::flatten:
+        number("Strength", t.ground.strength, 0.02f, 1.0f, "%.2f", "Share of the full effect");
+        break;
+      case ToolKind::exclude: {
+        int kind = static_cast<int>(t.area.kind);
+        ImGui::SetNextItemWidth(110 * layout.scale);
+        if (ImGui::Combo("Area", &kind, "Other\0Path\0Lawn\0Bed\0Building\0Water\0")) {
+          t.area.kind = static_cast<terrain::AreaKind>(kind);
+          t.area.name = std::string(terrain::kAreaKindNames[static_cast<std::size_t>(kind)]);
+          t.area.cover = terrain::usual_cover(t.area.kind);
+        }
+        ImGui::SameLine();
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  end_panel();
+}
+
+void Panels::status(App& app, const Layout& layout) {
+  Session& s = *app.session_;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * layout.scale, 4 * layout.scale});
+  if (begin_panel("status", {0, layout.screen.y - layout.bottom}, {layout.screen.x, layout.bottom})) {
+    const scene::PipelineStatus status = s.pipeline().status();
+    ImGui::Text("%zu trees", s.document()->trees->size());
+    ImGui::SameLine(0, 18 * layout.scale);
+    if (status.busy && status.total > 0) {
+      const float share = static_cast<float>(status.done) / static_cast<float>(status.total);
+      const std::string text = fmt::format("growing {} of {}", status.done, status.total);
+      ImGui::ProgressBar(share, {170 * layout.scale, layout.bottom - 9 * layout.scale}, text.c_str());
+    } else if (status.busy) {
+      ImGui::TextDisabled("%s", status.stage);
+    } else if (status.error) {
+      ImGui::TextColored({0.9f, 0.45f, 0.3f, 1}, "%s", status.error->message.c_str());
+    } else {
+      ImGui::TextDisabled("grown");
+    }
+    ImGui::SameLine(0, 18 * layout.scale);
+    ImGui::TextDisabled("%s triangles",
+                        fmt::format("{:.2f} M", static_cast<double>(app.view_->triangles()) / 1e6).c_str());
+    if (app.export_.running()) {
+      ImGui::SameLine(0, 18 * layout.scale);
+      ImGui::ProgressBar(app.export_.share(), {150 * layout.scale, layout.bottom - 9 * layout.scale},
+                         (std::string("export: ") + app.export_.stage()).c_str());
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Cancel")) app.export_.cancel();
+    }
+    const std::string hint(tool_info(s.tool_kind()).hint);
+    const float width = ImGui::CalcTextSize(hint.c_str()).x;
+    ImGui::SameLine(std::max(420 * layout.scale, layout.screen.x - width - 14 * layout.scale));
+    ImGui::TextDisabled("%s", hint.c_str());
+  }
+  end_panel();
+  ImGui::PopStyleVar();
+}
+
+void Panels::history(App& app, const Layout& layout) {
+  Session& s = *app.session_;
+  ImGui::SetNextWindowSize({250 * layout.scale, 340 * layout.scale}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowPos({layout.screen.x - layout.right - 270 * layout.scale, layout.menu + layout.top + 10},
+                          ImGuiCond_Appearing);
+  if (ImGui::Begin("History", &app.show_history_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+    const scene::History& h = s.history();
+    std::optional<std::size_t> to;
+    for (std::size_t step = 0; step < h.steps(); ++step) {
+      const bool undone = step > h.place();
+      if (undone) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+      if (ImGui::Selectable((h.name(step) + "##" + std::to_string(step)).c_str(), step == h.place())) to = step;
+      if (undone) ImGui::PopStyleColor();
+    }
+    if (to) s.go_to(*to);
+  }
+  ImGui::End();
+}
+
+void Panels::toast(App& app, const Layout& layout) {
+  if (app.toast_.empty() || app.time_s_ > app.toast_until_s_) return;
+  ImGui::SetNextWindowPos({layout.left + 0.5f * app.view_size_.x, layout.screen.y - layout.bottom - 18 * layout.scale},
+                          ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowBgAlpha(0.92f);
+  ImGui::Begin("toast", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  ImGui::PushTextWrapPos(0.7f * app.view_size_.x);
+  ImGui::TextUnformatted(app.toast_.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+void Panels::shortcuts(App& app, const Layout& layout) {
+  ImGui::SetNextWindowSize({430 * layout.scale, 480 * layout.scale}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowPos({0.5f * layout.screen.x, 0.5f * layout.screen.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+  if (ImGui::Begin("Shortcuts", &app.show_shortcuts_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+    const auto row = [](const std::string& keys, std::string_view what) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(keys.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what.data(), what.data() + what.size());
+    };
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+      for (int k = 0; k < kToolCount; ++k) {
+        const ToolInfo& info = tool_info(static_cast<ToolKind>(k));
+        row(std::string(1, static_cast<char>(info.key)), info.name);
+      }
+      row("[ ]", "Smaller or larger brush");
+      row("Shift", "Smooths, erases, or adds to the selection");
+      row("Right drag", "Turn the view");
+      row("Middle drag, Shift + right drag", "Move the view");
+      row("Wheel", "Nearer or farther");
+      row("Arrows", "Walk");
+      row("C", "Walk at eye height");
+      row("F, Home", "Frame the selection, the site");
+      row("Num 1 3 5 6 7 9", "Views from the sides and above");
+      row("Ctrl+Z, Ctrl+Y", "Undo, redo");
+      row("Ctrl+H", "History");
+      row("Ctrl+S, Ctrl+O, Ctrl+E", "Save, open, export");
+      row("Ctrl+A, Ctrl+L", "Select all, lock");
+      row("Escape", "Ends what is going on");
+      ImGui::EndTable();
+    }
+  }
+  ImGui::End();
+}
+
+}  // namespace bosquet::ui

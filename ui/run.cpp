@@ -1,0 +1,114 @@
+#include "ui/run.h"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/stopwatch.h"
+#include "exchange/file_output.h"
+#include "exchange/image_file.h"
+#include "ui/app.h"
+#include "ui/script_player.h"
+#include "ui/window.h"
+
+namespace bosquet::ui {
+namespace {
+
+constexpr double kIdleWait_s = 0.05;
+constexpr double kSettleAtMost_s = 60;
+
+double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// What was asked of the person once is not asked again: a file in the state folder tells.
+std::filesystem::path first_run_mark() { return scene::recovery_folder().parent_path() / "seen-first-steps"; }
+
+double share(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(part * static_cast<double>(values.size())))];
+}
+
+}  // namespace
+
+Result<void> run_window(const RunOptions& options) {
+  std::optional<Script> script;
+  if (!options.script.empty()) {
+    auto read = read_script(options.script);
+    if (!read) return read.error();
+    script = std::move(*read);
+  }
+  auto window = Window::open({});
+  if (!window) return window.error();
+
+  AppOptions app_options;
+  app_options.file = options.file;
+  app_options.example = options.example;
+  app_options.session.threads = options.threads;
+  std::error_code ec;
+  const bool by_hand = !script && options.screenshot.empty();
+  app_options.first_run = by_hand && options.file.empty() && !std::filesystem::exists(first_run_mark(), ec);
+  auto app = App::create(app_options);
+  if (!app) return app.error();
+  if (app_options.first_run) std::ofstream(first_run_mark()) << "\n";
+
+  std::optional<ScriptPlayer> player;
+  const auto screenshot = [&] { return render::read_framebuffer(0, window->size()); };
+  if (script) player.emplace(std::move(*script), screenshot);
+  std::vector<double> cpu, wall;
+  std::string title;
+  int calm = 0;
+  while (!(*app)->ended()) {
+    const bool busy = player || !(*app)->settled();
+    std::vector<Event> events = window->events(busy ? 0.0 : kIdleWait_s);
+    const double now = window->time_s();
+    const Stopwatch watch;
+    const double cpu_before = thread_seconds();
+    if (player) {
+      events = player->next(**app, now);
+      if (player->done() || !player->problem().empty()) break;
+    }
+    if (window->size().x < 1 || window->size().y < 1) continue;  // an icon
+    const std::vector<std::filesystem::path> dropped = window->dropped();
+    FrameInput input;
+    input.size = window->size();
+    input.scale = window->scale();
+    input.time_s = now;
+    input.events = events;
+    input.dropped = dropped;
+    input.close = window->wants_to_close();
+    if (input.close) window->keep_open();
+    (*app)->frame(input);
+    cpu.push_back(thread_seconds() - cpu_before);
+    window->show_frame();
+    wall.push_back(watch.seconds());
+    if (const std::string now_title = (*app)->title(); now_title != title) window->set_title(title = now_title);
+    if (!player && !options.screenshot.empty()) {
+      calm = (*app)->settled() ? calm + 1 : 0;
+      if (calm > 3 || now > kSettleAtMost_s) break;
+    }
+  }
+  if (player && !player->problem().empty()) return Error{player->problem()};
+  if (!options.screenshot.empty())
+    if (auto written = exchange::write_image(options.screenshot, screenshot()); !written) return written;
+  if (!options.report.empty()) {
+    nlohmann::ordered_json json;
+    json["frames"] = cpu.size();
+    json["cpu_ms"] = {{"median", 1e3 * share(cpu, 0.5)}, {"p99", 1e3 * share(cpu, 0.99)}};
+    json["frame_ms"] = {{"median", 1e3 * share(wall, 0.5)}, {"p99", 1e3 * share(wall, 0.99)}};
+    json["trees"] = (*app)->session().document()->trees->size();
+    std::ofstream out(options.report);
+    out << json.dump(2) << "\n";
+    if (!out) return cannot_finish(options.report.string() + ": cannot be written");
+  }
+  return {};
+}
+
+}  // namespace bosquet::ui

@@ -1,0 +1,400 @@
+#include "ui/scene_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/hash.h"
+#include "core/stopwatch.h"
+#include "geometry/ground_mesh.h"
+#include "geometry/tree_mesh.h"
+#include "scene/materials.h"
+#include "scene/view_models.h"
+
+namespace bosquet::ui {
+namespace {
+
+// Nodes of the renderer by what they are; a tree's key is its id.
+enum Kind : std::uint64_t { kTree = 0, kShape, kGround, kWater, kObstacle, kHero, kViewModel };
+std::uint64_t key_of(Kind kind, std::uint64_t number) { return kind << 40 | number; }
+
+// Materials that are there from the beginning.
+enum : std::size_t { kGroundMaterial, kWaterMaterial, kObstacleMaterial, kShapeMaterial, kFlatMaterial };
+
+constexpr std::size_t kGroundTriangles = 60'000;
+constexpr std::size_t kHeroTriangles = 150'000;
+// A full picture that takes longer would hold up the hand.
+constexpr double kMoment_s = 0.25;
+constexpr double kStill_s = 0.35;
+constexpr double kSlowDraft_s = 0.12;
+constexpr int kSides = 14, kRings = 7;
+
+bool ready(const auto& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+TriangleMesh shape_mesh(const crowns::RepresentativeShape& shape, float scale_height, float scale_width) {
+  TriangleMesh mesh;
+  const auto lathe = [&](const std::vector<Vec2>& profile, const Rgba8& tint) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (std::size_t r = 0; r < profile.size(); ++r) {
+      const Vec2 along = profile[std::min(r + 1, profile.size() - 1)] - profile[r ? r - 1 : 0];
+      for (int s = 0; s < kSides; ++s) {
+        const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / kSides);
+        const Vec3 out(a.cos, 0.0f, -a.sin);
+        mesh.positions.push_back(profile[r].x * out + Vec3(0.0f, profile[r].y, 0.0f));
+        const Vec3 normal = along.y * out - along.x * kUp;
+        mesh.normals.push_back(glm::dot(normal, normal) > 0.0f ? glm::normalize(normal) : kUp);
+        mesh.colours.push_back(tint);
+      }
+    }
+    for (std::uint32_t r = 0; r + 1 < profile.size(); ++r)
+      for (std::uint32_t s = 0; s < kSides; ++s) {
+        const std::uint32_t t = (s + 1) % kSides, a = first + r * kSides;
+        mesh.indices.insert(mesh.indices.end(), {a + s, a + t, a + kSides + t, a + s, a + kSides + t, a + kSides + s});
+      }
+  };
+  const float half = 0.5f * scale_height * shape.crown_height_m(), middle = scale_height * shape.trunk_height_m + half;
+  const float trunk = 0.5f * scale_width * shape.trunk_width_m, crown = 0.5f * scale_width * shape.crown_width_m;
+  lathe({{trunk, 0.0f}, {trunk, middle}}, Rgba8(92, 72, 54, 255));
+  std::vector<Vec2> profile;
+  for (int r = 0; r <= kRings; ++r) {
+    const SinCos a = sin_cos(kPi * static_cast<float>(r) / kRings);
+    profile.push_back({std::max(crown * a.sin, 1e-3f), middle - half * a.cos});
+  }
+  lathe(profile, Rgba8(96, 130, 70, 255));
+  return mesh;
+}
+
+Result<SceneView> SceneView::create() {
+  SceneView view;
+  auto renderer = render::Renderer::create();
+  if (!renderer) return renderer.error();
+  view.renderer_ = std::move(*renderer);
+  scene::Model base;
+  base.materials = scene::site_materials();
+  scene::Material shape;
+  shape.name = "shape";
+  shape.surface = scene::Surface::obstacle;
+  shape.double_sided = true;
+  base.materials.push_back(shape);
+  base.materials.push_back(shape);
+  view.site_materials_ = base.materials;
+  if (auto uploaded = view.renderer_->upload(base); !uploaded) return uploaded.error();
+  return view;
+}
+
+void SceneView::put(std::uint64_t key, scene::Node node) {
+  const auto old = nodes_.find(key);
+  if (old != nodes_.end())
+    for (const scene::Part& part : old->second.parts) triangles_ -= part.mesh->triangles();
+  for (const scene::Part& part : node.parts) triangles_ += part.mesh->triangles();
+  // Memory that the graphics card does not have shows as a missing tree, not as an end of work.
+  static_cast<void>(renderer_->put(key, node));
+  nodes_[key] = std::move(node);
+  ++changed_;
+}
+
+void SceneView::remove(std::uint64_t key) {
+  const auto found = nodes_.find(key);
+  if (found == nodes_.end()) return;
+  for (const scene::Part& part : found->second.parts) triangles_ -= part.mesh->triangles();
+  nodes_.erase(found);
+  renderer_->remove(key);
+  ++changed_;
+}
+
+std::optional<std::size_t> SceneView::materials_of(const scene::Document& document, std::size_t species) {
+  const std::shared_ptr<const scene::Species> kind = document.species[species];
+  if (const auto there = species_materials_.find(kind->name); there != species_materials_.end()) return there->second;
+  auto& made = species_made_[kind->name];
+  if (!made.valid())
+    made = std::async(std::launch::async, [kind] { return scene::species_materials(*kind, geometry::Season::summer); });
+  if (!ready(made)) return {};
+  auto first = renderer_->add_materials(made.get());
+  species_made_.erase(kind->name);
+  const std::size_t index = first ? *first : kShapeMaterial;
+  species_materials_[kind->name] = index;
+  return index;
+}
+
+void SceneView::follow_site(const scene::Document& document) {
+  if (!shown_ || shown_->terrain != document.terrain) {
+    geometry::GroundOptions options;
+    options.max_triangles = kGroundTriangles;
+    std::vector<TriangleMesh> chunks = geometry::mesh_ground(*document.terrain, options);
+    for (std::uint64_t c = 0;; ++c) {
+      if (c < chunks.size()) {
+        scene::Node node;
+        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(chunks[c])), kGroundMaterial});
+        put(key_of(kGround, c), std::move(node));
+      } else if (nodes_.contains(key_of(kGround, c))) {
+        remove(key_of(kGround, c));
+      } else {
+        break;
+      }
+    }
+    TriangleMesh water = geometry::mesh_water(*document.terrain, options);
+    remove(key_of(kWater, 0));
+    if (!water.empty()) {
+      scene::Node node;
+      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(water)), kWaterMaterial});
+      put(key_of(kWater, 0), std::move(node));
+    }
+  }
+  if (!shown_ || !shown_->obstacles.shares(document.obstacles)) {
+    if (shown_)
+      for (const scene::Obstacle& obstacle : shown_->obstacles)
+        remove(key_of(kObstacle, static_cast<std::uint64_t>(-obstacle.id)));
+    for (const scene::Obstacle& obstacle : document.obstacles) {
+      scene::Node node;
+      node.parts.push_back({obstacle.mesh, kObstacleMaterial});
+      put(key_of(kObstacle, static_cast<std::uint64_t>(-obstacle.id)), std::move(node));
+    }
+  }
+  if (!shown_ || !shown_->heroes.shares(document.heroes) || shown_->terrain != document.terrain) {
+    if (shown_)
+      for (const scene::HeroTree& hero : shown_->heroes) remove(key_of(kHero, static_cast<std::uint64_t>(-hero.id)));
+    for (const scene::HeroTree& hero : document.heroes) {
+      const auto materials = materials_of(document, hero.species);
+      const scene::Species& species = *document.species[hero.species];
+      geometry::MeshOptions options;
+      options.max_triangles = kHeroTriangles;
+      options.seed = document.seed, options.key = hero.key;
+      geometry::TreeMesh mesh =
+          geometry::build_tree_mesh(*hero.skeleton, hero.skeleton->radius, species.look, species.foliage, options);
+      scene::Node node;
+      node.translation = to_world(hero.at, document.terrain->ground(hero.at));
+      const std::size_t first = materials.value_or(kShapeMaterial);
+      const bool own = materials.has_value();
+      if (!mesh.branches.empty())
+        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.branches)), first});
+      if (!mesh.leaves.empty() && own) {
+        const bool mass = mesh.foliage == geometry::FoliageLevel::cards;
+        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.leaves)),
+                              first + (mass ? scene::kMassPart : scene::kLeafPart)});
+      }
+      put(key_of(kHero, static_cast<std::uint64_t>(-hero.id)), std::move(node));
+    }
+  }
+}
+
+void SceneView::show_shape(const scene::Document& document, const scene::Tree& tree) {
+  scene::Node node;
+  node.translation = to_world(tree.at, document.terrain->ground(tree.at));
+  node.parts.push_back({std::make_shared<const TriangleMesh>(
+                            shape_mesh(document.species_of(tree).shape, tree.scale_height, tree.scale_width)),
+                        kShapeMaterial});
+  put(key_of(kShape, static_cast<std::uint64_t>(tree.id)), std::move(node));
+}
+
+void SceneView::show_grown(const scene::Document& document, const scene::FinishedTree& tree) {
+  const auto materials = materials_of(document, tree.tree.species);
+  if (!materials) {
+    waiting_.push_back(tree.id);
+    return;
+  }
+  scene::Node node;
+  node.translation = tree.base;
+  if (const auto& m = tree.meshes) {
+    // The meshes live as long as what holds them.
+    if (!m->branches.empty())
+      node.parts.push_back({std::shared_ptr<const TriangleMesh>(m, &m->branches), *materials + scene::kBarkPart});
+    if (!m->leaves.empty()) {
+      const bool mass = m->foliage == geometry::FoliageLevel::cards;
+      node.parts.push_back({std::shared_ptr<const TriangleMesh>(m, &m->leaves),
+                            *materials + (mass ? scene::kMassPart : scene::kLeafPart)});
+    }
+  }
+  const auto id = static_cast<std::uint64_t>(tree.id);
+  put(key_of(kTree, id), std::move(node));
+  remove(key_of(kShape, id));
+}
+
+// Trees that are new or not what has been grown stand as shapes; those that went, go.
+void SceneView::follow_trees(const scene::Document& document) {
+  if (shown_ && shown_->trees == document.trees && shown_->species.shares(document.species) &&
+      shown_->terrain == document.terrain)
+    return;
+  if (shown_)
+    for (const scene::Tree& tree : *shown_->trees)
+      if (const scene::Tree* now = document.trees->find(tree.id); !now || now->status == scene::TreeStatus::to_remove) {
+        remove(key_of(kTree, static_cast<std::uint64_t>(tree.id)));
+        remove(key_of(kShape, static_cast<std::uint64_t>(tree.id)));
+        grown_.erase(tree.id);
+      }
+  for (const scene::Tree& tree : *document.trees) {
+    if (tree.status == scene::TreeStatus::to_remove) continue;
+    const scene::Tree* before = shown_ ? shown_->trees->find(tree.id) : nullptr;
+    const bool same = before && before->at == tree.at && before->species == tree.species &&
+                      before->scale_height == tree.scale_height && before->scale_width == tree.scale_width;
+    const auto id = static_cast<std::uint64_t>(tree.id);
+    const bool level = shown_ && shown_->terrain == document.terrain;
+    if (same && level) continue;
+    const auto there = nodes_.find(key_of(kTree, id));
+    if (same && there != nodes_.end()) {
+      // Only the ground moved.
+      const Vec3 base = to_world(tree.at, document.terrain->ground(tree.at));
+      if (there->second.translation != base) {
+        scene::Node node = there->second;
+        node.translation = base;
+        put(key_of(kTree, id), std::move(node));
+      }
+      continue;
+    }
+    // One that is dragged keeps its own crown until it has a new one.
+    if (before && there != nodes_.end() && before->species == tree.species &&
+        before->scale_height == tree.scale_height && before->scale_width == tree.scale_width) {
+      scene::Node node = there->second;
+      node.translation = to_world(tree.at, document.terrain->ground(tree.at));
+      put(key_of(kTree, id), std::move(node));
+      continue;
+    }
+    remove(key_of(kTree, id));
+    show_shape(document, tree);
+  }
+}
+
+void SceneView::follow_overhead() {
+  if (ready(overhead_)) {
+    static_cast<void>(renderer_->set_overhead(overhead_.get()));
+    drawn_full_ = false;
+    drawn_for_ = 0;
+  }
+  if (overhead_.valid() || overhead_for_ == changed_) return;
+  overhead_for_ = changed_;
+  scene::Model model;
+  model.materials = site_materials_;
+  scene::Material plant;
+  for (const auto& [key, node] : nodes_) {
+    scene::Node copy = node;
+    // What counts overhead is ground, water or something that stands on it.
+    for (scene::Part& part : copy.parts) part.material = std::min<std::size_t>(part.material, kObstacleMaterial);
+    model.nodes.push_back(std::move(copy));
+  }
+  const Box3 bounds = renderer_->bounds();
+  overhead_ = std::async(std::launch::async,
+                         [model = std::move(model), bounds] { return render::make_overhead(model, bounds); });
+}
+
+// Regions, arrows and plan are pictures of the whole, made anew when the trees are finished.
+void SceneView::follow_view_model(const Session& session) {
+  const bool flat = show == Show::regions || show == Show::arrows || show == Show::plan;
+  const std::uint64_t wanted = flat ? session.revision() * 2 + (session.growth().year ? 1 : 0) : 0;
+  if (wanted == view_model_for_ && shown_as_ == show && shown_slice_ == slice_m) return;
+  auto& pipeline = const_cast<Session&>(session).pipeline();
+  const std::shared_ptr<const scene::Surroundings> around = pipeline.surroundings();
+  if (flat && (!pipeline.idle() || !around)) return;
+  view_model_for_ = wanted;
+  shown_as_ = show;
+  shown_slice_ = slice_m;
+  for (std::uint64_t i = 0; nodes_.contains(key_of(kViewModel, i)); ++i) remove(key_of(kViewModel, i));
+  ++changed_;
+  if (!flat) return;
+  scene::GrownScene grown;
+  grown.document = *session.document();
+  grown.space = around->space;
+  std::vector<scene::Tree> drawn;
+  for (const scene::Tree& tree : *grown.document.trees) {
+    const auto found = grown_.find(tree.id);
+    scene::GrownTree one;
+    if (found != grown_.end()) one = found->second.grown;
+    grown.trees.push_back(one);
+  }
+  auto model = show == Show::regions  ? scene::regions_model(grown, slice_m)
+               : show == Show::arrows ? scene::arrows_model(grown)
+                                      : scene::plan_model(grown);
+  if (!model) return;
+  std::uint64_t number = 0;
+  for (scene::Node& node : model->nodes) {
+    for (scene::Part& part : node.parts) part.material = kFlatMaterial;
+    put(key_of(kViewModel, number++), std::move(node));
+  }
+}
+
+void SceneView::update(Session& session) {
+  const std::shared_ptr<const scene::Document> document = session.document();
+  const Stopwatch watch;
+  if (document != shown_) {
+    follow_site(*document);
+    follow_trees(*document);
+    shown_ = document;
+  }
+  // Materials that came in the meantime.
+  std::vector<std::int32_t> waiting = std::exchange(waiting_, {});
+  for (const std::int32_t id : waiting)
+    if (const auto found = grown_.find(id); found != grown_.end()) show_grown(*document, found->second);
+
+  do {
+    std::vector<scene::FinishedTree> finished = session.pipeline().take_finished(4);
+    if (finished.empty()) break;
+    for (scene::FinishedTree& tree : finished) {
+      const scene::Tree* now = document->trees->find(tree.id);
+      if (tree.gone || !now) {
+        if (!now) {
+          remove(key_of(kTree, static_cast<std::uint64_t>(tree.id)));
+          grown_.erase(tree.id);
+        }
+        continue;
+      }
+      // One that was changed again since waits for its next growth.
+      if (now->at != tree.tree.at || now->species != tree.tree.species) continue;
+      const scene::FinishedTree& kept = grown_[tree.id] = std::move(tree);
+      show_grown(*document, kept);
+    }
+  } while (watch.seconds() < kUpload_s);
+  follow_view_model(session);
+  if (session.pipeline().idle()) follow_overhead();
+}
+
+bool SceneView::settled() const {
+  return waiting_.empty() && species_made_.empty() && !overhead_.valid() && overhead_for_ == changed_ &&
+         drawn_for_ == changed_;
+}
+
+void SceneView::draw(const Session& session, IVec2 size, bool moving, double time_s) {
+  const scene::Camera camera = session.rig.camera();
+  const float plan = session.rig.plan_height_m();
+  const scene::Sun& sun = session.document()->sun;
+  const bool same_camera = camera.eye == drawn_camera_.eye && camera.target == drawn_camera_.target &&
+                           camera.vertical_fov_deg == drawn_camera_.vertical_fov_deg && plan == drawn_plan_;
+  const bool same = same_camera && size == drawn_size_ && drawn_for_ == changed_ &&
+                    sun.azimuth_deg == drawn_sun_.azimuth_deg && sun.elevation_deg == drawn_sun_.elevation_deg;
+  if (!same || moving) still_since_s_ = time_s;
+  // A full picture costs three to five times a draft.
+  const bool full = !moving && same && time_s - still_since_s_ > kStill_s && 5.0 * draft_s_ < kMoment_s;
+  if (same && (drawn_full_ || !full)) return;
+
+  render::View view;
+  view.camera = camera;
+  view.orthographic_height_m = plan;
+  view.sun = sun;
+  view.look = look;
+  view.quality = full ? render::Quality::full : render::Quality::draft;
+  view.supersample = 1;
+  view.samples = render::draws_by_software() ? 1 : 4;
+  if (show == Show::regions || show == Show::arrows || show == Show::plan) {
+    view.shading = render::Shading::flat;
+    view.sky = false;
+  }
+  // Where even a draft is slow, it has half the pixels while a hand moves.
+  const int shrink = moving && draft_s_ > kSlowDraft_s ? 2 : 1;
+  view.width = std::max(1, size.x / shrink), view.height = std::max(1, size.y / shrink);
+  if (!target_.fit({view.width, view.height})) return;
+  const Stopwatch watch;
+  static_cast<void>(renderer_->draw_into(target_.framebuffer(), view));
+  render::finish_drawing();
+  if (!full) draft_s_ = watch.seconds() * shrink * shrink;
+  drawn_camera_ = camera;
+  drawn_plan_ = plan;
+  drawn_size_ = size;
+  drawn_for_ = changed_;
+  drawn_sun_ = sun;
+  drawn_full_ = full || shrink == 1;
+  if (!full && 5.0 * draft_s_ < kMoment_s) drawn_full_ = false;
+  if (shrink > 1) drawn_for_ = 0;  // the whole one follows when the hand rests
+}
+
+}  // namespace bosquet::ui
