@@ -120,6 +120,18 @@ TEST(ClippedTree, AnotherFormOfTheSameSizeChangesNoOtherTree) {
     EXPECT_EQ(growth::digest(*a.trees[i].skeleton) == growth::digest(*b.trees[i].skeleton), i != 2) << i;
 }
 
+TEST(ClippedTree, AHedgeBendsNoTreeBesideIt) {
+  std::vector<Vec2> places{{10, 10}};
+  for (int i = 0; i < 12; ++i) places.push_back({4.0f + static_cast<float>(i), 13.0f});
+  Document document = sample_document("european_beech", places, {20, 20}, 0.25f);
+  EXPECT_NE(grow(document).trees[0].asymmetry, Vec3(0.0f));
+  std::vector<Tree> trees = document.trees->to_vector();
+  for (std::size_t i = 1; i < trees.size(); ++i)
+    set_form(trees[i], *document.species[0], {FormKind::box, 1.5f, 0.8f, 1.5f}, 0.0f);
+  document.trees = std::make_shared<const Trees>(std::move(trees));
+  EXPECT_EQ(grow(document).trees[0].asymmetry, Vec3(0.0f));
+}
+
 TEST(ClippedTree, ACachedSkeletonIsNotTakenForAnotherForm) {
   SkeletonCache cache;
   GrowOptions options;
