@@ -39,11 +39,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Example{"single_birch", 1, 100 * kMega}, Example{"single_spruce", 1, 100 * kMega},
                       Example{"single_willow", 1, 100 * kMega}, Example{"facade", 7, 150 * kMega},
                       Example{"avenue", 665, 150 * kMega}, Example{"park", 283, 150 * kMega},
-                      Example{"existing_site", 183, 150 * kMega},
-                      Example{"giant", 13, 150 * kMega}, Example{"closed_stand", 99, 150 * kMega},
-                      Example{"plots/plot_10", 10, 150 * kMega}, Example{"plots/plot_30", 30, 150 * kMega},
-                      Example{"plots/plot_100", 100, 150 * kMega}, Example{"plots/plot_300", 300, 150 * kMega},
-                      Example{"lansing_woods", 2251, 400 * kMega}, Example{"barro_colorado", 3604, 400 * kMega}),
+                      Example{"existing_site", 183, 150 * kMega}, Example{"giant", 13, 150 * kMega},
+                      Example{"closed_stand", 99, 150 * kMega}, Example{"plots/plot_10", 10, 150 * kMega},
+                      Example{"plots/plot_30", 30, 150 * kMega}, Example{"plots/plot_100", 100, 150 * kMega},
+                      Example{"plots/plot_300", 300, 150 * kMega}, Example{"lansing_woods", 2251, 400 * kMega},
+                      Example{"barro_colorado", 3604, 400 * kMega}),
     [](const auto& test) { return std::filesystem::path(test.param.name).stem().string(); });
 
 }  // namespace

@@ -168,7 +168,8 @@ TEST(Recipe, AClippedHedgeIsOneBodyAboutItsLine) {
 
 TEST(Recipe, WhereATreeIsRemovedAnotherMayBePlanted) {
   const std::string old = "[[planting]]\nname = 'old'\nkind = 'single'\nspecies = { english_oak = 1 }\nat = [20, 20]\n";
-  const std::string next = "[[planting]]\nname = 'new'\nkind = 'single'\nspecies = { silver_birch = 1 }\nat = [20, 20]\n";
+  const std::string next =
+      "[[planting]]\nname = 'new'\nkind = 'single'\nspecies = { silver_birch = 1 }\nat = [20, 20]\n";
   EXPECT_EQ(build(old + next).document.trees->size(), 1u);
   const BuiltRecipe cleared = build(old + "status = 'to_remove'\n" + next);
   ASSERT_EQ(cleared.document.trees->size(), 2u);
