@@ -114,7 +114,7 @@ TEST_F(BadInput, WhenThereIsNoRoomLeftPlantingStopsAndSaysSo) {
 
 TEST_F(BadInput, MistakesOnTheCommandLineHaveStatusOne) {
   for (const char* line :
-       {"", "mak x.toml", "make", "render x.toml -o out.png --size 10", "render x.toml -o out.png --view trunks",
+       {"mak x.toml", "make", "render x.toml -o out.png --size 10", "render x.toml -o out.png --view trunks",
         "make x.toml -o out.glb --detail 99", "info picture.png", "species show elephant_tree"}) {
     const Ran ran = bosquet(line);
     EXPECT_EQ(ran.status, 1) << line;
