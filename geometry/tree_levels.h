@@ -5,7 +5,7 @@
 //                  more for trees of several stems
 //           cards  pictures of the tree on four or two cards (impostor.h)
 //           Where a level gives way to the next is where the next one looks more like the tree at the distance that so
-//           few triangles are for (measured by bench/lod_table, docs/performance.md)
+//           few triangles are for (bench/lod_table measures the difference)
 // Model     shell and cards are made from a source mesh of at most kSourceTriangles, whose own foliage keeps the area and
 //           the colour of all leaves
 // Units     metres, tree frame
