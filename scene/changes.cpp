@@ -50,6 +50,8 @@ Changes changes(const Document& before, const Document& after) {
   out.cameras = before.cameras != after.cameras;
   out.sun = before.sun != after.sun;
   out.max_triangles = before.max_triangles != after.max_triangles;
+  out.clearance = before.clearance != after.clearance;
+  out.plan = before.plan != after.plan || before.underlay != after.underlay;
   out.counters = before.next_tree_id != after.next_tree_id || before.next_standing_id != after.next_standing_id ||
                  before.next_block != after.next_block;
   return out;

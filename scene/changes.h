@@ -24,13 +24,14 @@ struct Changes {
   bool obstacles = false, heroes = false;
   bool space = false, asymmetry = false, light = false;  ///< settings of the crown space and what follows
   bool cameras = false, sun = false, max_triangles = false;
+  bool clearance = false, plan = false;  ///< plan: the sheet's settings or its underlay
   bool counters = false;
 
   bool trees() const { return !added.empty() || !removed.empty() || !changed.empty(); }
   /// Whether anything but the counters is another.
   bool any() const {
     return site || !ground.none() || trees() || !species.empty() || fewer_species || interactions || species_bar ||
-           obstacles || heroes || space || asymmetry || light || cameras || sun || max_triangles;
+           obstacles || heroes || space || asymmetry || light || cameras || sun || max_triangles || clearance || plan;
   }
 };
 

@@ -258,6 +258,10 @@ Digest128 of_settings(const Document& d) {
   hash.add(d.cameras.size());
   for (const Camera& c : d.cameras) hash.add(c.name).add(c.eye).add(c.target).add(c.vertical_fov_deg);
   hash.add(d.sun.azimuth_deg).add(d.sun.elevation_deg).add(d.max_triangles);
+  add_described(hash, d.clearance);
+  add_described(hash, d.plan);
+  add_described(hash, d.underlay);
+  hash.add(d.underlay.file).add(d.underlay.south_west.x).add(d.underlay.south_west.y);
   return hash.digest();
 }
 

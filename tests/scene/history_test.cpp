@@ -134,6 +134,9 @@ TEST(DocumentDigest, EverySectionShowsItsOwnChanges) {
   Document d = before;
   d.seed = 12, differs(d, Section::site);
   d = before, d.sun.azimuth_deg = 1, differs(d, Section::settings);
+  d = before, d.clearance.path_m = 1, differs(d, Section::settings);
+  d = before, d.plan.title = "Sheet", differs(d, Section::settings);
+  d = before, d.underlay.file = "plan.png", differs(d, Section::settings);
   d = before, d.interactions.push_back({"silver_birch", "silver_birch"}), differs(d, Section::planting);
   d = before, d.species.push_back(d.species[0]), differs(d, Section::species);
   differs(move_trees(before, std::vector<std::int32_t>{3}, {0.001f, 0})->document, Section::trees);
