@@ -56,6 +56,11 @@ function(bosquet_test name)
   add_executable(${name}_test ${arg_SOURCES})
   target_link_libraries(${name}_test PRIVATE bosquet_options ${arg_LINK} GTest::gtest_main rapidcheck rapidcheck_gtest)
   target_compile_definitions(${name}_test PRIVATE BOSQUET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Under the sanitizers only quick tests are run, so only those are built.
+  if(BOSQUET_SANITIZE AND NOT arg_LABELS STREQUAL "quick")
+    set_target_properties(${name}_test PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
+  endif()
   include(GoogleTest)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${arg_LABELS}" ENVIRONMENT "RC_PARAMS=seed=20140901"
