@@ -10,6 +10,8 @@ namespace bosquet::render {
 namespace {
 
 constexpr float kSmallDiscM = 1.0f, kLargeDiscM = 4.5f;
+/// Water that comes this near to the ground's edge goes on beyond it.
+constexpr float kWaterEdgeM = 0.5f;
 constexpr float kSmallestCellM = 0.1f;
 
 /// The ground this near to its edge colours the land around.
@@ -123,6 +125,7 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
   map.ground.assign(cells, kNothing);
   std::vector<float> top(cells, kNothing);
   float water_area = 0;
+  Box2 water_box;
   glm::dvec4 albedo(0.0), edge_tint(0.0);
   for (const scene::Node& node : model.nodes)
     for (const scene::Part& part : node.parts) {
@@ -135,6 +138,8 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
         if (!box.empty() && box.size().x * box.size().z > water_area) {
           water_area = box.size().x * box.size().z;
           map.water_level_m = box.high.y + node.translation.y;
+          const Vec2 corner(node.translation.x, node.translation.z);
+          water_box = {Vec2(box.low.x, box.low.z) + corner, Vec2(box.high.x, box.high.z) + corner};
         }
         continue;
       }
@@ -170,6 +175,10 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
           }
       }
     }
+  if (map.water_level_m && !map.ground_box.empty()) {
+    const Vec2 inside_low = water_box.low - map.ground_box.low, inside_high = map.ground_box.high - water_box.high;
+    map.water_flows_on = std::min({inside_low.x, inside_low.y, inside_high.x, inside_high.y}) < kWaterEdgeM;
+  }
   if (edge_tint.w > 0) map.land_tint = Vec3(glm::dvec3(edge_tint) / edge_tint.w);
   if (albedo.w > 0) map.ground_albedo = Vec3(glm::dvec3(albedo) / albedo.w);
 

@@ -29,6 +29,7 @@ struct Overhead {
   Vec3 ground_albedo{0.16f};           ///< mean of the ground's base colour, linear
   Vec3 land_tint{0.16f};               ///< of plain land around: what the ground's edge multiplies its texture by
   std::optional<float> water_level_m;  ///< of the largest water surface
+  bool water_flows_on = false;         ///< it reaches the ground's edge, so there is more of it beyond; a pond does not
 
   Vec2 size() const { return cell * Vec2(columns, rows); }
 };

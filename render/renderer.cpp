@@ -361,7 +361,7 @@ FrameBlock Renderer::State::light_block(const View& view, const ViewVolume& volu
   const float site = glm::length(over.size());
   block.land = Vec4(over.land_tint, std::max(kWoodsM, 1.2f * site));
   block.ground_box = Vec4(over.ground_box.low, over.ground_box.high);
-  block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_level_m ? 1 : 0, 0, 0);
+  block.water = Vec4(over.water_level_m.value_or(0.0f), over.water_flows_on ? 1 : 0, 0, 0);
   block.lens = Vec4(volume.half_width, volume.half_height, 0, 0);
   block.clip = Vec4(0, 0, 0, 1);
   block.shading = Vec4(static_cast<float>(view.shading), static_cast<float>(facts.samples), 0, 0);

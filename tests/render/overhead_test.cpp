@@ -40,5 +40,13 @@ TEST(Overhead, OfNothingHoldsOneCell) {
   EXPECT_EQ(map.columns * map.rows, 1);
 }
 
+TEST(Overhead, ARiverFlowsOnBeyondTheGroundAndAPondDoesNot) {
+  scene::Model pond = test::ground_scene(40), river = pond;
+  test::add_water(pond, {20, -20}, 12, 0.5f);
+  test::add_water(river, {20, -20}, 40, 0.5f);
+  EXPECT_FALSE(make_overhead(pond, bounds(pond)).water_flows_on);
+  EXPECT_TRUE(make_overhead(river, bounds(river)).water_flows_on);
+}
+
 }  // namespace
 }  // namespace bosquet::render
