@@ -203,7 +203,7 @@ bool App::shortcut(const Event& e) {
           box.add(foot - Vec3(0.4f * h, 0, 0.4f * h));
           box.add(foot + Vec3(0.4f * h, h, 0.4f * h));
         }
-      s.rig.frame(box.empty() ? (view_->triangles() > 0 ? site : site) : box, aspect);
+      s.rig.frame(box.empty() ? site : box, aspect);
       s.rig.keep_above(*s.document()->terrain);
       return true;
     }

@@ -267,7 +267,6 @@ void SceneView::follow_overhead() {
   overhead_for_ = changed_;
   scene::Model model;
   model.materials = site_materials_;
-  scene::Material plant;
   for (const auto& [key, node] : nodes_) {
     scene::Node copy = node;
     // What counts overhead is ground, water or something that stands on it.
@@ -296,7 +295,6 @@ void SceneView::follow_view_model(const Session& session) {
   scene::GrownScene grown;
   grown.document = *session.document();
   grown.space = around->space;
-  std::vector<scene::Tree> drawn;
   for (const scene::Tree& tree : *grown.document.trees) {
     const auto found = grown_.find(tree.id);
     scene::GrownTree one;
