@@ -15,6 +15,7 @@
 #include "scene/pipeline.h"
 #include "scene/planting_edits.h"
 #include "scene/site_edits.h"
+#include "scene/surroundings.h"
 
 namespace bosquet::scene {
 namespace {
@@ -154,6 +155,28 @@ void digest_after_an_edit(benchmark::State& state) {
   }
 }
 BENCHMARK(digest_after_an_edit)->Unit(benchmark::kMillisecond);
+
+// A stroke of the raising brush among ten thousand trees: regions, asymmetry and light around it.
+void regions_after_a_stroke(benchmark::State& state) {
+  const Document& document = ten_thousand();
+  StandingKeeper standing;
+  std::vector<std::string> warnings;
+  const Surroundings around = value(surround(document, {}, standing, warnings, nullptr, nullptr));
+  RandomStream random(7, 1, Purpose::statistics);
+  std::size_t touched = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    terrain::Stroke raise;
+    const Vec2 from{random.uniform(20, 280), random.uniform(20, 280)};
+    raise.points = {from, from + Vec2(10, 5)};
+    const Document after = shape_ground(document, raise).document;
+    warnings.clear();
+    state.ResumeTiming();
+    touched += value(update_surroundings(around, document, after, standing, warnings, nullptr)).touched.size();
+  }
+  state.counters["trees"] = static_cast<double>(touched) / static_cast<double>(state.iterations());
+}
+BENCHMARK(regions_after_a_stroke)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(20);
 
 // A tree of the stand moves by half a metre and back; until all it touches stands there again, with its meshes.
 void a_moved_tree(benchmark::State& state) {

@@ -5,8 +5,8 @@
 
 #include "cli/commands.h"
 #include "cli/grown.h"
-#include "exchange/elevation.h"
 #include "exchange/footprints.h"
+#include "exchange/ground_recipe.h"
 #include "exchange/mesh_file.h"
 #include "exchange/tree_import.h"
 #include "scene/project_file.h"
@@ -15,35 +15,30 @@
 namespace bosquet::cli {
 namespace {
 
-// The ground of a raster: the site's extent where there is none yet, else resampled to the site.
+// The ground of a raster: the site's extent where there is none yet, else what lies under the site, in its reference
+// system. What stands on the ground goes with it.
 Result<void> import_ground(const std::filesystem::path& file, scene::Document& document,
                            std::vector<std::string>& warnings) {
-  auto raster = exchange::read_elevation(file);
-  if (!raster) return raster.error();
   const bool fresh = !document.terrain;
-  const DVec2 corner = fresh ? raster->low_corner() : document.place.south_west;
-  auto lattice = fresh ? terrain::make_lattice(Vec2(raster->high_corner() - raster->low_corner()))
-                       : Result<terrain::Lattice>(document.terrain->height.lattice());
-  if (!lattice) return Error{fmt::format("{}: {}", file.string(), lattice.error().message)};
-  auto heights = exchange::heights_at_corners(*raster, corner, lattice->cells.x, lattice->cells.y,
-                                              static_cast<double>(lattice->cell_m), DVec2(lattice->size_m));
-  if (!heights) return heights.error();
-  auto field = terrain::Heightfield::from_samples(*lattice, *heights);
-  if (!field) return field.error();
-  if (raster->filled > 0)
-    warnings.push_back(
-        fmt::format("{}: {} cells without data were filled from their surroundings", file.string(), raster->filled));
-  if (raster->reprojected) warnings.push_back(fmt::format("{}: reprojected to local metres", file.string()));
+  exchange::GroundRecipe recipe;
+  recipe.dem = file;
+  recipe.site_corner_given = recipe.sun_place_given = !fresh;
+  const Vec2 size = fresh ? Vec2(0.0f) : document.terrain->size_m();
+  auto ground = exchange::make_ground(recipe, size, document.place, document.seed);
+  if (!ground) return ground.error();
+  warnings.insert(warnings.end(), ground->warnings.begin(), ground->warnings.end());
+  document.place = ground->place;
+  const terrain::HeightRange heights = ground->terrain.height.range();
   if (fresh) {
-    document.terrain = std::make_shared<const terrain::Terrain>(terrain::make_terrain(std::move(*field)));
-    document.place.south_west = corner;
-    document.place.crs_wkt = raster->crs_wkt;
+    document.terrain = std::make_shared<const terrain::Terrain>(std::move(ground->terrain));
   } else {
-    terrain::Terrain ground = *document.terrain;
-    ground.height = std::move(*field);
-    document = scene::set_ground(document, std::move(ground), "Import ground").document;
+    terrain::Terrain with = *document.terrain;
+    with.height = std::move(ground->terrain.height);
+    scene::Edited edited = scene::set_ground(document, std::move(with), "Import ground");
+    warnings.insert(warnings.end(), edited.notes.begin(), edited.notes.end());
+    document = std::move(edited.document);
   }
-  fmt::print("{}: {} x {} cells of {:g} m\n", file.string(), raster->columns, raster->rows, raster->cell_x_m);
+  fmt::print("{}: heights from {:.1f} to {:.1f} m\n", file.string(), heights.low, heights.high);
   return {};
 }
 
@@ -73,6 +68,7 @@ Result<void> import_obstacles(const std::filesystem::path& file, scene::Document
   } else {
     auto outlines = exchange::read_footprints(file, document.place, DVec2(document.terrain->size_m()));
     if (!outlines) return outlines.error();
+    if (outlines->place) document.place = *outlines->place;
     for (const std::string& note : outlines->notes) warnings.push_back(fmt::format("{}: {}", file.string(), note));
     constexpr float kUsualHeight_m = 8.0f;
     for (exchange::Footprint& f : outlines->all) {

@@ -217,6 +217,8 @@ std::vector<Vec3> update_asymmetry(const CrownSpace& previous, std::span<const V
     for (const Box2& box : update.obstacle_edits)
       if (glm::distance(t.base, glm::clamp(t.base, box.low, box.high)) <= radius(t, 0.0f) + space.voxel_m())
         stale[i] = 1;
+    if (options.slope_weight > 0.0f)
+      for (const Box2& box : update.reshaped) stale[i] = stale[i] || box.contains(t.base);
   }
 
   std::vector<std::size_t> todo;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -31,6 +32,13 @@ struct Hidden {
   IVec2 column;
 };
 
+/// Layers of a column that came to lie above the ground, or under it.
+struct GroundEdit {
+  IVec2 column;
+  std::int32_t low, high;
+  bool opened;
+};
+
 // What is the same for all layers.
 struct Edit {
   const CrownSpace& before;
@@ -44,6 +52,8 @@ struct Edit {
   std::vector<std::int32_t> edited;        ///< slots of trees that came, went or have another front
   std::vector<const Obstacle*> gone_obstacles, new_obstacles;
   std::vector<Hidden> hidden;  ///< sorted by slot, layer
+  std::vector<GroundEdit> ground_edits;
+  /// Of tiles that were not held, or whose ground is another.
   std::unordered_map<std::uint64_t, std::shared_ptr<const std::vector<std::int32_t>>> ground;
   std::mutex ground_lock;
 
@@ -51,8 +61,10 @@ struct Edit {
   const Placed* new_place(std::int32_t slot) const { return place(layout, claimant, slot); }
 
   std::shared_ptr<const std::vector<std::int32_t>> ground_of(IVec2 tile) {
-    if (const SpaceTile* held = before.find_tile(tile)) return held->ground;
     const std::lock_guard lock(ground_lock);
+    const auto known = ground.find(packed(tile));
+    if (known != ground.end()) return known->second;
+    if (const SpaceTile* held = before.find_tile(tile)) return held->ground;
     auto& layers = ground[packed(tile)];
     if (!layers) layers = ground_layers(tile, terrain, layout.domain, options);
     return layers;
@@ -110,6 +122,16 @@ class LayerUpdate {
           for (IVec2 step : kBeside)
             if (const std::int32_t slot = before_if_held(s.column + step); slot >= 0)
               join(slot), sheet_at(tile_of(s.column));  // it may go on into the voxel
+    for (const GroundEdit& g : edit_.ground_edits) {
+      if (layer_ < g.low || layer_ >= g.high) continue;
+      if (!g.opened) {
+        join(before_if_held(g.column));
+        continue;
+      }
+      for (IVec2 step : kBeside)
+        if (const std::int32_t slot = before_if_held(g.column + step); slot >= 0)
+          join(slot), sheet_at(tile_of(g.column));
+    }
   }
   bool spans(const ColumnSpan& s) const { return s.low <= layer_ && layer_ < s.high; }
 
@@ -294,8 +316,13 @@ class LayerUpdate {
 class SpaceUpdater {
  public:
   SpaceUpdater(const CrownSpace& previous, std::span<const Claimant> trees, const Standing& standing,
-               const terrain::Terrain& terrain, const SpaceOptions& options)
-      : previous_(previous), trees_(trees), standing_(standing), terrain_(terrain), options_(options) {}
+               const terrain::Terrain& terrain, const SpaceOptions& options, const Reshaped& reshaped)
+      : previous_(previous),
+        trees_(trees),
+        standing_(standing),
+        terrain_(terrain),
+        options_(options),
+        reshaped_(reshaped) {}
 
   Result<SpaceUpdate> run() {
     if (auto checked = check_input(trees_, standing_, options_); !checked) return checked.error();
@@ -318,9 +345,11 @@ class SpaceUpdater {
               {},
               {},
               {},
+              {},
               {}};
     if (!match(edit)) return whole();
     find_obstacle_edits(edit);
+    find_ground_edits(edit);
     find_hidden(edit);
     divide(edit);
     rebuild_tiles(edit);
@@ -372,7 +401,12 @@ class SpaceUpdater {
       const std::int32_t slot = slot_of_[i] = previous_.slot_of_[static_cast<std::size_t>(was[i])];
       edit.claimant[static_cast<std::size_t>(slot)] = static_cast<std::int32_t>(i);
       const Claimant &before = old[static_cast<std::size_t>(was[i])], &now = trees_[i];
-      if (before != now) update_.edits.insert(update_.edits.end(), {before, now}), edited_.push_back(slot);
+      if (before != now) {
+        edited_.push_back(slot);
+        Claimant level = now;
+        level.ground_y = before.ground_y;
+        if (before != level) update_.edits.insert(update_.edits.end(), {before, now});
+      }
       if (before.key != now.key || layout_->placed[i] != previous_.layout_->placed[static_cast<std::size_t>(was[i])])
         edit.edited.push_back(slot);
     }
@@ -416,6 +450,43 @@ class SpaceUpdater {
       if (missing_in(o, previous_.standing_)) note(o, edit.new_obstacles);
   }
 
+  // Columns that begin at another layer, in tiles that are held and in those beside them, into which a tree may go on.
+  void find_ground_edits(Edit& edit) {
+    if (!reshaped_.before) return;
+    update_.reshaped = reshaped_.where;
+    std::set<std::pair<std::int32_t, std::int32_t>> tiles;
+    const auto within = [&](IVec2 tile) {
+      const Box2 box{Vec2(tile * kEdge) * options_.voxel_m, Vec2((tile + 1) * kEdge) * options_.voxel_m};
+      return std::any_of(reshaped_.where.begin(), reshaped_.where.end(), [&](const Box2& b) {
+        return b.low.x <= box.high.x && b.low.y <= box.high.y && b.high.x >= box.low.x && b.high.y >= box.low.y;
+      });
+    };
+    for (const auto& held : previous_.tiles_) {
+      if (within(held->tile)) tiles.insert({held->tile.y, held->tile.x});
+      for (IVec2 step : kBeside)
+        if (const IVec2 tile = held->tile + step; within(tile)) tiles.insert({tile.y, tile.x});
+    }
+    std::vector<IVec2> asked;
+    for (const auto& [n, e] : tiles) asked.push_back({e, n});
+    std::vector<std::shared_ptr<const std::vector<std::int32_t>>> was(asked.size()), is(asked.size());
+    parallel_for(asked.size(), [&](std::size_t t) {
+      const SpaceTile* held = previous_.find_tile(asked[t]);
+      was[t] = held ? held->ground : ground_layers(asked[t], *reshaped_.before, layout_->domain, options_);
+      is[t] = ground_layers(asked[t], terrain_, layout_->domain, options_);
+    });
+    for (std::size_t t = 0; t < asked.size(); ++t) {
+      if (*was[t] == *is[t]) continue;
+      edit.ground[packed(asked[t])] = is[t];
+      if (previous_.find_tile(asked[t])) reshaped_tiles_.push_back(asked[t]);
+      for (std::int32_t c = 0; c < kTileColumns; ++c) {
+        const std::int32_t a = (*was[t])[static_cast<std::size_t>(c)], b = (*is[t])[static_cast<std::size_t>(c)];
+        if (a != b)
+          edit.ground_edits.push_back(
+              {asked[t] * kEdge + IVec2{c % kEdge, c / kEdge}, std::min(a, b), std::max(a, b), b < a});
+      }
+    }
+  }
+
   void find_hidden(Edit& edit) {
     for (const auto& tile : previous_.tiles_)
       for (const SpaceTile::Under& u : tile->under_heroes) {
@@ -435,12 +506,18 @@ class SpaceUpdater {
     const auto note = [&](const Placed* p) {
       if (p) low = std::min(low, p->base), high = std::max(high, p->top);
     };
-    if (!edit.gone_obstacles.empty() || !edit.new_obstacles.empty()) {
-      // Beyond the layers that any tree takes part in, an obstacle changes no front.
+    // Beyond the layers that any tree takes part in, obstacles and ground change no front.
+    const bool obstacles = !edit.gone_obstacles.empty() || !edit.new_obstacles.empty();
+    if (obstacles || !edit.ground_edits.empty()) {
       for (const Placed& p : edit.old_layout.placed) note(&p);
       for (const Placed& p : edit.layout.placed) note(&p);
-    } else {
+    }
+    if (!obstacles) {
+      const std::int32_t least = low, most = high;
+      low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::lowest();
       for (std::int32_t slot : edit.edited) note(edit.old_place(slot)), note(edit.new_place(slot));
+      for (const GroundEdit& g : edit.ground_edits)
+        low = std::min(low, std::max(g.low, least)), high = std::max(high, std::min(g.high, most));
     }
     for (std::int32_t k = low; k < high; ++k) layers_.push_back(std::make_unique<LayerUpdate>(edit, k));
     parallel_for(layers_.size(), [&](std::size_t n) { layers_[n]->run(); });
@@ -490,6 +567,7 @@ class SpaceUpdater {
     for (const Obstacle* o : edit.new_obstacles)
       for (const ColumnSpan& s : o->volume->spans)
         if (layout_->domain.contains(s.column)) touch(tile_of(s.column)).need(s.high - 1, s.high);
+    for (IVec2 tile : reshaped_tiles_) touch(tile);
     const auto same = [](const std::vector<HeroVoxel>& a, const std::vector<HeroVoxel>& b) {
       return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const HeroVoxel& x, const HeroVoxel& y) {
         return x.layer == y.layer && x.column == y.column && x.owner == y.owner;
@@ -523,9 +601,11 @@ class SpaceUpdater {
     tile->tile = t.tile;
     tile->ground = edit.ground_of(t.tile);
     std::int32_t low = t.low, high = t.high;
-    if (held)
+    if (held) {
       low = std::min(low, held->first_layer), high = std::max(high, held->first_layer + held->layers);
-    else
+      if (held->ground != tile->ground)
+        low = std::min(low, *std::min_element(tile->ground->begin(), tile->ground->end()));
+    } else
       low = std::min(low, *std::min_element(tile->ground->begin(), tile->ground->end()));
     tile->first_layer = low;
     tile->layers = high - low;
@@ -721,18 +801,21 @@ class SpaceUpdater {
   const Standing& standing_;
   const terrain::Terrain& terrain_;
   const SpaceOptions& options_;
+  const Reshaped& reshaped_;
   std::shared_ptr<const SpaceLayout> layout_;
   std::vector<std::int32_t> slot_of_, edited_;
   std::vector<std::unique_ptr<LayerUpdate>> layers_;
   std::int32_t first_layer_ = 0;
+  std::vector<IVec2> reshaped_tiles_;  ///< held ones with columns that begin at another layer
   std::vector<Touched> touched_;
   std::unordered_map<std::uint64_t, std::size_t> touched_at_;
   SpaceUpdate update_;
 };
 
 Result<SpaceUpdate> update_space(const CrownSpace& previous, std::span<const Claimant> trees, const Standing& standing,
-                                 const terrain::Terrain& terrain, const SpaceOptions& options) {
-  return SpaceUpdater(previous, trees, sorted(standing), terrain, options).run();
+                                 const terrain::Terrain& terrain, const SpaceOptions& options,
+                                 const Reshaped& reshaped) {
+  return SpaceUpdater(previous, trees, sorted(standing), terrain, options, reshaped).run();
 }
 
 }  // namespace bosquet::crowns

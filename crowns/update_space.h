@@ -7,7 +7,9 @@
 //           solution, and there is but one. Else the touching trees join S and the layer is divided again. S starts as
 //           the edited trees with two rings of neighbours, which is mostly enough
 // Holds     equal to divide_space() of the same input, owner and tick for every voxel, for any sequence of edits
-// Condition the ground under the trees is the one that `previous` was divided over, and trees keep their ids
+// Ground    where its heights are others, columns begin at other layers: what they lose is as if an obstacle came there,
+//           what they gain as if one went
+// Condition beyond `reshaped` the ground is the one that `previous` was divided over, and trees keep their ids
 // Cost      follows the edited trees and their neighbours (3-20 ms for a tree of 7 m), plus a sort over all trees. Arrival
 //           times need not be kept
 #pragma once
@@ -26,13 +28,22 @@ struct SpaceUpdate {
   CrownSpace space;
   std::vector<std::size_t> changed;  ///< claimants, rising, that were added or edited or whose voxels are others now
   bool whole = false;                ///< all was divided anew, as the lattice or the options are others
-  std::vector<Claimant> edits;       ///< claimants that came, went or changed, as they were and as they are
+  /// Claimants that came, went or changed in more than the height they stand at, as they were and as they are.
+  std::vector<Claimant> edits;
   std::vector<Box2> obstacle_edits;  ///< plan bounds of obstacles that came, went or changed
+  std::vector<Box2> reshaped;        ///< where heights and slopes of the ground may be others
+};
+
+/// Ground that is another than the one `previous` was divided over.
+struct Reshaped {
+  const terrain::Terrain* before = nullptr;  ///< that one; null when the ground is the same
+  std::vector<Box2> where;                   ///< as terrain::reshaped
 };
 
 /// `trees` and `standing` are all there are after the edit; what differs from `previous` is found here.
 Result<SpaceUpdate> update_space(const CrownSpace& previous, std::span<const Claimant> trees, const Standing& standing,
-                                 const terrain::Terrain& terrain, const SpaceOptions& options);
+                                 const terrain::Terrain& terrain, const SpaceOptions& options,
+                                 const Reshaped& reshaped = {});
 
 /// V of every claimant after an update, from those of `previous`: equal to neighbourhood_asymmetry(). `changed` gets the
 /// claimants, rising, whose V is another now or that were not there before.

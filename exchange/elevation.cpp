@@ -290,8 +290,13 @@ Result<Elevation> read_elevation(const std::filesystem::path& path, const Elevat
 }
 
 float height_at(const Elevation& elevation, DVec2 place) {
-  const double x = std::clamp((place.x - elevation.origin.x) / elevation.cell_x_m, 0.0, elevation.columns - 1.0);
-  const double y = std::clamp((place.y - elevation.origin.y) / elevation.cell_y_m, 0.0, elevation.rows - 1.0);
+  // A millionth of a cell off a sample is rounding in large coordinates: it is the sample.
+  const auto along = [](double cells, int count) {
+    const double whole = std::round(cells);
+    return std::clamp(std::abs(cells - whole) < 1e-6 ? whole : cells, 0.0, count - 1.0);
+  };
+  const double x = along((place.x - elevation.origin.x) / elevation.cell_x_m, elevation.columns);
+  const double y = along((place.y - elevation.origin.y) / elevation.cell_y_m, elevation.rows);
   const int c = std::min(static_cast<int>(x), std::max(0, elevation.columns - 2));
   const int r = std::min(static_cast<int>(y), std::max(0, elevation.rows - 2));
   const int c2 = std::min(c + 1, elevation.columns - 1), r2 = std::min(r + 1, elevation.rows - 1);

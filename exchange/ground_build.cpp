@@ -6,6 +6,7 @@
 #include <map>
 
 #include "exchange/elevation.h"
+#include "exchange/ground_rasters.h"
 #include "exchange/ground_recipe.h"
 #include "exchange/reference_system.h"
 #include "exchange/shapes.h"
@@ -50,6 +51,8 @@ class Maker {
     if (auto done = find_boundary(); !done) return done.error();
     if (auto done = make_heights(); !done) return done.error();
     terrain::Terrain& site = ground_.terrain;
+    if (!recipe_.map.empty())
+      if (auto done = read_map(recipe_.map, recipe_.map_areas, site); !done) return done.error();
     if (recipe_.noise.amplitude_m > 0.0f) site.height = terrain::with_noise(site.height, recipe_.noise, seed_);
     for (terrain::Stroke stroke : recipe_.strokes) {
       stroke.seed += seed_;
@@ -140,7 +143,8 @@ class Maker {
     ground_.terrain = terrain::make_terrain(std::move(*field));
     tell(*raster, corner);
     ground_.place.south_west = corner;
-    if (!raster->crs_wkt.empty()) ground_.place.crs_wkt = raster->crs_wkt;
+    // The site's own words for its system stay; the raster was brought to it where it had another.
+    if (ground_.place.crs_wkt.empty()) ground_.place.crs_wkt = raster->crs_wkt;
     return {};
   }
 

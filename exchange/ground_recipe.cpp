@@ -97,11 +97,28 @@ void read_area(TomlTable& table, const std::filesystem::path& folder, GroundReci
   ground.areas.push_back(std::move(out));
 }
 
+void read_map_table(TomlTable& table, const std::filesystem::path& folder, GroundRecipe& ground) {
+  if (auto file = table.text("file"); file && !file->empty())
+    ground.map = folder / *file;
+  else
+    table.error(table.has("file") ? "file" : "", "[terrain.map] needs file = \"map.tif\", a raster that bosquet wrote");
+  for (TomlTable& item : table.tables("area")) {
+    AreaRecipe read;
+    read_kind(item, read);
+    read.area.name = item.text("name").value_or("");
+    if (auto level = item.number("level_m", -10000, 10000)) read.area.water_level_m = static_cast<float>(*level);
+    item.finish();
+    ground.map_areas.push_back(std::move(read.area));
+  }
+  table.finish();
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> GroundRecipe::files() const {
   std::vector<std::filesystem::path> out;
   if (!dem.empty()) out.push_back(dem);
+  if (!map.empty()) out.push_back(map);
   if (!boundary_file.empty()) out.push_back(boundary_file);
   for (const AreaRecipe& area : areas)
     if (!area.file.empty()) out.push_back(area.file);
@@ -138,6 +155,7 @@ void read_ground(TomlTable& table, const std::filesystem::path& folder, GroundRe
   for (const char* key : {"dem_south_west", "dem_heights_m", "dem_size_m"})
     if (table.has(key) && ground.dem.empty()) table.error(key, fmt::format("{} needs dem beside it", key));
   if (auto level = table.number("water_level_m", -10000, 10000)) ground.water_level_m = static_cast<float>(*level);
+  if (auto map = table.table("map")) read_map_table(*map, folder, ground);
   for (TomlTable& item : table.tables("stroke")) read_stroke(item, ground);
   for (TomlTable& item : table.tables("area")) read_area(item, folder, ground);
   for (TomlTable& item : table.tables("exclusion")) {

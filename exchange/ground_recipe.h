@@ -1,7 +1,7 @@
 // Ground recipe: the tables [site] and [terrain] of a recipe as plain values, and the ground made of them.
 //
 // Format    docs/recipe.md
-// Order     elevation, noise, strokes, water level, the boundary, then areas, exclusions and paths in the order of the
+// Order     elevation, map, noise, strokes, water level, the boundary, then areas, exclusions and paths in the order of the
 //           file; what comes later lies on top
 // Place     with an elevation raster the site's corner is `dem_south_west` or, without, the site's own `south_west`, or,
 //           without either, such that the site's middle is the raster's; its reference system is that of [site], else the
@@ -43,6 +43,8 @@ struct GroundRecipe {
   bool dem_corner_given = false;
   std::optional<DVec2> dem_heights_m;  ///< of the raster's smallest and largest number
   std::optional<DVec2> dem_size_m;     ///< of a raster without georeference
+  std::filesystem::path map;           ///< masks, areas and ponds cell by cell (ground_rasters.h)
+  std::vector<terrain::Area> map_areas;
   std::vector<terrain::Stroke> strokes;
   std::optional<float> water_level_m;
   std::vector<AreaRecipe> areas;  ///< with exclusions and paths

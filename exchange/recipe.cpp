@@ -43,6 +43,8 @@ class Reader {
     if (auto table = root.table("clearance")) describe(recipe_.document.clearance, *table), table->finish();
     if (auto table = root.table("plan")) describe(recipe_.document.plan, *table), table->finish();
     if (auto table = root.table("underlay")) read_underlay(*table);
+    for (TomlTable& table : root.tables("species_bar")) read_species_bar(table);
+    if (auto table = root.table("counters")) read_counters(*table);
     if (auto table = root.table("export")) {
       if (auto n = table->integer("max_triangles", 0, 1'000'000'000))
         recipe_.document.max_triangles = static_cast<std::size_t>(*n);
@@ -64,8 +66,7 @@ class Reader {
       recipe_.size_m = {static_cast<float>((*size)[0]), static_cast<float>((*size)[1])};
     }
     read_site_ground(*site, folder_, recipe_.ground);
-    if (auto seed = site->integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
-      recipe_.document.seed = static_cast<std::uint64_t>(*seed);
+    if (auto seed = site->natural("seed")) recipe_.document.seed = *seed;
     scene::Georeference& place = recipe_.document.place;
     place.latitude_deg = site->number("latitude_deg", -90, 90).value_or(place.latitude_deg);
     place.longitude_deg = site->number("longitude_deg", -180, 180).value_or(place.longitude_deg);
@@ -93,6 +94,7 @@ class Reader {
         auto read = scene::read_species_file(folder_ / *file);
         if (!read) return read.error();
         species = std::move(*read);
+        species.derived = table.boolean("derived").value_or(false);
         if (name) species.name = *name;
       } else {
         if (!name) table.error("", "a [[species]] needs a name, or a file");
@@ -420,6 +422,7 @@ class Reader {
         table.error("", fmt::format("a [[camera]] needs {} = [east, north, metres above the ground]", key));
     }
     camera.vertical_fov_deg = static_cast<float>(table.number("fov_deg", 5, 120).value_or(40.0));
+    camera.on_ground = table.boolean("on_ground").value_or(true);
     table.finish();
     recipe_.cameras.push_back(std::move(camera));
   }
@@ -431,10 +434,37 @@ class Reader {
     table.finish();
   }
 
+  void read_species_bar(TomlTable& table) {
+    distribution::MixEntry entry{};
+    if (auto name = table.text("species")) {
+      if (const auto index = species(table, "species", *name)) entry.species = static_cast<std::uint32_t>(*index);
+    } else if (!table.has("species")) {
+      table.error("", "a [[species_bar]] needs species, a name");
+    }
+    entry.probability = static_cast<float>(table.number("share", 0, 1e6).value_or(1.0));
+    if (auto scale = table.numbers("scale", 2)) {
+      if (!((*scale)[0] >= 0.02 && (*scale)[0] <= (*scale)[1] && (*scale)[1] <= 4))
+        table.error("scale", fmt::format("scale = [{:g}, {:g}] must be [smallest, largest], 0.02 to 4", (*scale)[0],
+                                         (*scale)[1]));
+      entry.scale_min = static_cast<float>((*scale)[0]), entry.scale_max = static_cast<float>((*scale)[1]);
+    }
+    table.finish();
+    recipe_.document.species_bar.push_back(entry);
+  }
+
+  void read_counters(TomlTable& table) {
+    CounterRecipe& counters = recipe_.counters;
+    constexpr auto kLast = std::numeric_limits<std::int32_t>::max();
+    counters.tree = static_cast<std::int32_t>(table.integer("next_tree", 1, kLast).value_or(1));
+    counters.standing = static_cast<std::int32_t>(table.integer("next_standing", -kLast, -1).value_or(-1));
+    counters.block = table.natural("next_block").value_or(1);
+    table.finish();
+  }
+
   void read_underlay(TomlTable& table) {
     scene::Underlay& underlay = recipe_.document.underlay;
     if (auto file = table.text("file"); file && !file->empty())
-      underlay.file = (folder_ / *file).string();
+      underlay.file = std::filesystem::absolute(folder_ / *file).lexically_normal().string();
     else
       table.error(table.has("file") ? "file" : "", "[underlay] needs file = \"plan.png\", a .png or .jpg");
     if (auto corner = table.numbers("south_west", 2)) underlay.south_west = {(*corner)[0], (*corner)[1]};

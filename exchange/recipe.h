@@ -34,8 +34,8 @@
 namespace bosquet::exchange {
 
 enum class PlantingKind { fill, thinning, brush, row, grid, hedge, single, inventory, trees };
-inline constexpr std::array<std::string_view, 9> kPlantingKindNames{"fill", "thinning", "brush",  "row",
-                                                                    "grid", "hedge",    "single", "inventory", "trees"};
+inline constexpr std::array<std::string_view, 9> kPlantingKindNames{"fill",  "thinning", "brush",     "row",  "grid",
+                                                                    "hedge", "single",   "inventory", "trees"};
 
 /// What is ordered of a block's trees beside their species and size.
 struct TreeOrder {
@@ -81,11 +81,11 @@ struct ObstacleRecipe {
   Vec2 at{0.0f};               ///< of a mesh's origin, plan
   float rotation_deg = 0.0f;   ///< counter-clockwise seen from above
   float scale = 1.0f;
-  float height_m = 8.0f;  ///< of outlines that say none
-  std::vector<std::vector<Vec2>> holes;           ///< of `outline`
-  std::optional<float> low_m, high_m;             ///< of `outline`, above datum; in place of height_m
-  bool on_ground = true;                          ///< a mesh's height 0 is the ground at `at`, else the datum
-  std::int32_t id = 0;                            ///< 0: the next
+  float height_m = 8.0f;                 ///< of outlines that say none
+  std::vector<std::vector<Vec2>> holes;  ///< of `outline`
+  std::optional<float> low_m, high_m;    ///< of `outline`, above datum; in place of height_m
+  bool on_ground = true;                 ///< a mesh's height 0 is the ground at `at`, else the datum
+  std::int32_t id = 0;                   ///< 0: the next
 };
 
 struct HeroRecipe {
@@ -93,20 +93,27 @@ struct HeroRecipe {
   std::filesystem::path file;
   Vec2 at{0.0f};
   float scale = 1.0f, rotation_deg = 0.0f;
-  std::int32_t id = 0;  ///< 0: the next
+  std::int32_t id = 0;      ///< 0: the next
   std::size_t species = 0;  ///< for its look
   std::shared_ptr<const SavedTree> tree;
 };
 
 struct CameraRecipe {
   std::string name;
-  Vec3 eye{0.0f}, target{0.0f};  ///< east, north, metres above the ground there
+  Vec3 eye{0.0f}, target{0.0f};  ///< east, north, metres above the ground there, or the datum
   float vertical_fov_deg = 40.0f;
+  bool on_ground = true;  ///< false: heights are above the site's datum
+};
+
+/// The next ids and block of a document, where they are past what is in it.
+struct CounterRecipe {
+  std::int32_t tree = 1, standing = -1;
+  std::uint64_t block = 1;
 };
 
 struct Recipe {
   std::filesystem::path file;
-  Vec2 size_m{0.0f};       ///< (0, 0): the site is as large as its boundary or its elevation
+  Vec2 size_m{0.0f};         ///< (0, 0): the site is as large as its boundary or its elevation
   scene::Document document;  ///< species and settings; ground and trees come with build_document
   GroundRecipe ground;
   int layers = 0;  ///< of the crown space, when given in place of layer_m
@@ -115,6 +122,7 @@ struct Recipe {
   std::vector<ObstacleRecipe> obstacles;
   std::vector<HeroRecipe> heroes;
   std::vector<CameraRecipe> cameras;
+  CounterRecipe counters;
 };
 
 /// Reads and checks a recipe. `seed` replaces the recipe's own when given.

@@ -12,8 +12,9 @@
 #include "exchange/mesh_file.h"
 #include "exchange/recipe.h"
 #include "exchange/recipe_write.h"
-#include "geometry/prism.h"
 #include "scene/clipped_tree.h"
+#include "scene/planting_edits.h"
+#include "scene/site_edits.h"
 #include "scene/species_names.h"
 
 namespace bosquet::exchange {
@@ -28,26 +29,6 @@ constexpr float kHedgeOverlap = 1.5f, kHedge_m = 0.5f, kPanel_m = 0.5f;
 
 // A list this long says as much as a longer one.
 constexpr std::size_t kListedPlaces = 5;
-
-// Walls go down to the lowest ground at the outline, and so much farther; heights count from the mean of it.
-constexpr float kFoundation_m = 0.3f;
-
-scene::Obstacle extruded_between(std::string name, Polygon outline, float low_y, float high_y) {
-  scene::Obstacle out;
-  out.id = 0;  // the next one
-  out.name = std::move(name);
-  out.low_y = low_y, out.high_y = high_y;
-  out.mesh = std::make_shared<const TriangleMesh>(geometry::prism(outline, out.low_y, out.high_y));
-  out.outline = std::make_shared<const Polygon>(std::move(outline));
-  return out;
-}
-
-scene::Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground) {
-  float lowest = ground.ground(outline.ring.front()), sum = 0;
-  for (Vec2 p : outline.ring) lowest = std::min(lowest, ground.ground(p)), sum += ground.ground(p);
-  const float high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
-  return extruded_between(std::move(name), std::move(outline), lowest - kFoundation_m, high_y);
-}
 
 // A mesh of somebody else's, scaled, turned and set on the ground.
 TriangleMesh placed(TriangleMesh mesh, const ObstacleRecipe& at, const terrain::Terrain& ground) {
@@ -85,8 +66,8 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
   for (const ObstacleRecipe& o : recipe.obstacles) {
     const std::string ending = o.file.extension().string();
     if (o.file.empty()) {
-      all.push_back(o.low_m ? extruded_between(o.name, {o.outline, o.holes}, *o.low_m, *o.high_m)
-                            : extruded(o.name, {o.outline, o.holes}, o.height_m, ground));
+      all.push_back(o.low_m ? scene::extruded_between(o.name, {o.outline, o.holes}, *o.low_m, *o.high_m)
+                            : scene::extruded(o.name, {o.outline, o.holes}, o.height_m, ground));
     } else if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
       auto mesh = read_mesh(o.file);
       if (!mesh) return Error{fmt::format("obstacle '{}': {}", o.name, mesh.error().message)};
@@ -100,8 +81,11 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
       if (!outlines) return Error{fmt::format("obstacle '{}': {}", o.name, outlines.error().message)};
       if (outlines->place) document.place = *outlines->place;
       for (const std::string& note : outlines->notes) warnings.push_back(fmt::format("{}: {}", o.file.string(), note));
-      for (Footprint& f : outlines->all)
-        all.push_back(extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(o.height_m), ground));
+      for (Footprint& f : outlines->all) {
+        all.push_back(
+            scene::extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(o.height_m), ground));
+        all.back().id = 0;
+      }
     }
     // A file of outlines makes several: their ids are the next ones.
     all.back().id = o.id;
@@ -123,12 +107,6 @@ void place_heroes(const Recipe& recipe, scene::Document& document) {
         {id, h.name, h.species, h.tree->key, h.at,
          std::make_shared<const growth::Skeleton>(scene::placed(h.tree->skeleton, h.scale, h.rotation_deg))});
   }
-}
-
-std::vector<distribution::Species> planting_species(const scene::Document& document) {
-  std::vector<distribution::Species> species;
-  for (const auto& s : document.species) species.push_back({s->name, s->shape.trunk_width_m, s->planting});
-  return species;
 }
 
 // Nothing is sown into buildings, nor under meshes.
@@ -215,11 +193,11 @@ class Planter {
     for (const scene::Tree& tree : trees) ids.insert(tree.id), keys.insert(tree.key);
     for (scene::Tree& tree : *exact) {
       if (!ids.insert(tree.id).second || !keys.insert(tree.key).second)
-        return Error{fmt::format("{}: the id or key of tree {} is that of a tree planted before; put this planting first",
-                                 block.file.string(), tree.id)};
-      StandingTree stands =
-          distribution::standing_tree(tree.key, static_cast<std::uint32_t>(tree.species),
-                                      planting_.species()[tree.species], tree.at, tree.scale_width);
+        return Error{
+            fmt::format("{}: the id or key of tree {} is that of a tree planted before; put this planting first",
+                        block.file.string(), tree.id)};
+      StandingTree stands = distribution::standing_tree(tree.key, static_cast<std::uint32_t>(tree.species),
+                                                        planting_.species()[tree.species], tree.at, tree.scale_width);
       if (tree.trunk_diameter_m) stands.trunk_radius_m = 0.5f * *tree.trunk_diameter_m;
       planting_.add(stands);
       next_id_ = std::max(next_id_, tree.id + 1);
@@ -352,9 +330,9 @@ class Planter {
     const auto refusal = distribution::plant_one(planting_, key, species, block.at, scale);
     // A tree that is set into a building by hand stays, and is warned about when the space is divided.
     // So does one that stands there already, on what is a lawn or will be a path.
-    const bool in_building = refusal == distribution::Refusal::built_over ||
-                             (block.order.status != scene::TreeStatus::proposed &&
-                              refusal == distribution::Refusal::excluded);
+    const bool in_building =
+        refusal == distribution::Refusal::built_over ||
+        (block.order.status != scene::TreeStatus::proposed && refusal == distribution::Refusal::excluded);
     if (in_building)
       planting_.add(distribution::standing_tree(key, species, planting_.species()[species], block.at, scale));
     if (refusal == distribution::Refusal::none || in_building)
@@ -419,8 +397,8 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
   built.seconds["terrain"] = watch.restart();
 
   if (progress) progress->begin("planting", 0);
-  auto planting =
-      Planting::make(*document.terrain, planting_species(document), recipe.interactions, 0.0f, barriers(document));
+  auto planting = Planting::make(*document.terrain, scene::planting_species(document), recipe.interactions, 0.0f,
+                                 barriers(document));
   if (!planting) return Error{fmt::format("{}: {}", recipe.file.string(), planting.error().message)};
   for (const scene::HeroTree& hero : document.heroes) planting->add(standing(hero, *planting));
   Planter planter(recipe, document.place, *planting, built.warnings, progress);
@@ -442,6 +420,7 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
   for (const CameraRecipe& camera : recipe.cameras) {
     auto place = [&](const Vec3& p) {
       const Vec2 plan{p.x, p.y};
+      if (!camera.on_ground) return to_world(plan, p.z);
       float ground_y = document.terrain->ground(plan);
       if (const auto water = document.terrain->water_level(plan)) ground_y = std::max(ground_y, *water);
       return to_world(plan, ground_y + p.z);
@@ -450,6 +429,10 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
   }
   document.interactions = recipe.interactions;
   scene::settle_counters(document);
+  // What was given once stays given, though it be gone.
+  document.next_tree_id = std::max(document.next_tree_id, recipe.counters.tree);
+  document.next_standing_id = std::min(document.next_standing_id, recipe.counters.standing);
+  document.next_block = std::max(document.next_block, recipe.counters.block);
   return built;
 }
 

@@ -1,17 +1,18 @@
 #include "exchange/recipe_write.h"
 
-#include <cpl_error.h>
 #include <fmt/format.h>
-#include <gdal.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <span>
 
 #include "exchange/csv.h"
 #include "exchange/file_output.h"
+#include "exchange/ground_rasters.h"
+#include "exchange/reference_system.h"
 #include "exchange/tree_file.h"
 #include "scene/project_trees.h"
 
@@ -43,6 +44,12 @@ std::string number(Number v) {
   return text;
 }
 
+// Whole numbers of TOML have 63 bits; larger ones are texts.
+std::string natural(std::uint64_t v) {
+  return v > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) ? fmt::format("\"{}\"", v)
+                                                                                  : fmt::format("{}", v);
+}
+
 std::string point(Vec2 p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); }
 
 std::string points(const std::vector<Vec2>& all) {
@@ -62,9 +69,12 @@ struct TomlText {
   void operator()(const Switch& s, bool v) { keys += fmt::format("{} = {}\n", s.name, v); }
   void operator()(const Text& t, const std::string& v) { keys += fmt::format("{} = {}\n", t.name, toml_text(v)); }
   void operator()(const Colour& c, const Vec3& v) {
-    keys += fmt::format("{} = \"", c.name);
-    for (int i = 0; i < 3; ++i) keys += fmt::format("{:02X}", static_cast<int>(v[i] * 255.0f + 0.5f));
-    keys += "\"\n";
+    // Six hex digits where they tell it, else three numbers.
+    const IVec3 bytes(v * 255.0f + 0.5f);
+    if (Vec3(bytes) / 255.0f == v)
+      keys += fmt::format("{} = \"{:02X}{:02X}{:02X}\"\n", c.name, bytes.x, bytes.y, bytes.z);
+    else
+      keys += fmt::format("{} = [{}, {}, {}]\n", c.name, number(v.x), number(v.y), number(v.z));
   }
   template <class Enum>
   requires std::is_enum_v<Enum>
@@ -138,52 +148,13 @@ std::string obj_text(const TriangleMesh& mesh) {
   return text;
 }
 
-// Heights stand on the corners of cells: each is the middle of a raster's cell, so reading it back gives its bits.
-Result<void> write_ground(const scene::Document& document, const path& target) {
-  const terrain::Heightfield& height = document.terrain->height;
-  const IVec2 size = height.cells() + 1;
-  const double cell = static_cast<double>(height.cell_m());
-  std::vector<float> rows;
-  for (int j = size.y - 1; j >= 0; --j)
-    for (int i = 0; i < size.x; ++i) rows.push_back(height.sample(i, j));
-  GDALAllRegister();
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  GDALDatasetH set = nullptr;
-  if (GDALDriverH driver = GDALGetDriverByName("GTiff")) {
-    const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", nullptr};
-    set = GDALCreate(driver, target.c_str(), size.x, size.y, 1, GDT_Float32, const_cast<char**>(options));
-  }
-  bool fine = set != nullptr;
-  if (set) {
-    const DVec2 low = document.place.south_west;
-    double frame[] = {low.x - 0.5 * cell, cell, 0, low.y + (size.y - 0.5) * cell, 0, -cell};
-    fine = GDALSetGeoTransform(set, frame) == CE_None;
-    if (!document.place.crs_wkt.empty())
-      fine = fine && GDALSetProjection(set, document.place.crs_wkt.c_str()) == CE_None;
-    fine = fine && GDALRasterIO(GDALGetRasterBand(set, 1), GF_Write, 0, 0, size.x, size.y, rows.data(), size.x, size.y,
-                                GDT_Float32, 0, 0) == CE_None;
-    GDALFlushCache(set);
-    fine = fine && CPLGetLastErrorType() < CE_Failure;
-    GDALClose(set);
-  }
-  CPLPopErrorHandler();
-  if (!fine) return cannot_finish(fmt::format("{}: cannot be written", target.string()));
-  return {};
-}
-
-template <class T>
-bool same_everywhere(const terrain::TiledGrid<T>& grid) {
-  const T first = grid.at(0, 0);
-  for (int j = 0; j < grid.size().y; ++j)
-    for (int i = 0; i < grid.size().x; ++i)
-      if (!(grid.at(i, j) == first)) return false;
-  return true;
-}
-
 class Writer {
  public:
   Writer(const scene::Document& document, const path& target)
-      : d_(document), target_(target), folder_(target.parent_path() / (target.stem().string() + "-files")) {}
+      : d_(document),
+        target_(target),
+        folder_(target.parent_path() / (target.stem().string() + "-files")),
+        place_(document.place) {}
 
   Result<WrittenRecipe> write() {
     std::error_code ec;
@@ -203,6 +174,7 @@ class Writer {
     out_.bytes += *written;
     return {};
   }
+  void warn(std::string text) { out_.warnings.push_back(std::move(text)); }
   std::string beside(const std::string& name) const { return toml_text((folder_.filename() / name).generic_string()); }
 
   Result<void> site() {
@@ -210,23 +182,44 @@ class Writer {
     const scene::Georeference& place = d_.place;
     const std::string corner = fmt::format("[{}, {}]", number(place.south_west.x), number(place.south_west.y));
     text_ += fmt::format("[site]\nsize_m = {}\n", point(size));
-    // Whole numbers of a recipe have 63 bits.
-    if (d_.seed <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-      text_ += fmt::format("seed = {}\n", d_.seed);
-    else
-      out_.warnings.push_back(fmt::format("the seed {} is too large for a recipe: its trees will be others", d_.seed));
+    text_ += fmt::format("seed = {}\n", natural(d_.seed));
     text_ += fmt::format("latitude_deg = {}\nlongitude_deg = {}\nsouth_west = {}\n", number(place.latitude_deg),
                          number(place.longitude_deg), corner);
+    if (!place.crs_wkt.empty()) {
+      // The reader takes planes in metres alone, and writes their definition in its own words.
+      const auto read = reference_system(place.crs_wkt);
+      const SystemFacts facts = system_facts(place.crs_wkt);
+      if (read && !facts.geographic && std::abs(facts.metres_per_unit - 1) < 1e-9)
+        text_ += fmt::format("crs = {}\n", toml_text(place.crs_wkt));
+      else
+        place_.crs_wkt.clear(),
+            warn("the site's reference system is no plane in metres that is known, and is not in the recipe");
+      if (read && *read != place.crs_wkt) warn("the site's reference system is told in other words in the recipe");
+    }
     text_ += fmt::format("\n[terrain]\ndem = {}\ndem_south_west = {}\n", beside("ground.tif"), corner);
-    if (d_.terrain->water_level_m) text_ += fmt::format("water_level_m = {}\n", number(*d_.terrain->water_level_m));
-    if (!same_everywhere(d_.terrain->exclusion.grid()) || !d_.terrain->areas.empty() || d_.terrain->has_ponds())
-      out_.warnings.push_back("areas barred from planting, their covers and ponds are not in the recipe");
-    if (!same_everywhere(d_.terrain->density.grid()))
-      out_.warnings.push_back("the painted planting density is not in the recipe");
-    const path ground = folder_ / "ground.tif";
-    if (auto done = write_ground(d_, ground); !done) return done;
+    const terrain::Terrain& ground = *d_.terrain;
+    if (ground.water_level_m) text_ += fmt::format("water_level_m = {}\n", number(*ground.water_level_m));
+    if (const auto usual = terrain::make_lattice(size); !usual || *usual != ground.height.lattice())
+      warn(fmt::format("the ground's cells of {:g} m are not those of a recipe's site: it is resampled",
+                       ground.height.cell_m()));
+    if (auto done = raster("ground.tif", write_heights); !done) return done;
+    if (!has_map(ground)) return {};
+    text_ += fmt::format("\n[terrain.map]\nfile = {}\n", beside("map.tif"));
+    for (std::size_t n = 1; n < ground.areas.count(); ++n) {
+      const terrain::Area& area = ground.areas.all()[n];
+      text_ += fmt::format("\n[[terrain.map.area]]\nname = {}\nkind = \"{}\"\ncover = \"{}\"\n", toml_text(area.name),
+                           terrain::kAreaKindNames[static_cast<std::size_t>(area.kind)],
+                           terrain::kCoverNames[static_cast<std::size_t>(area.cover)]);
+      if (area.water_level_m) text_ += fmt::format("level_m = {}\n", number(*area.water_level_m));
+    }
+    return raster("map.tif", write_map);
+  }
+
+  template <class Write>
+  Result<void> raster(const char* name, const Write& write) {
+    if (auto done = write(*d_.terrain, place_, folder_ / name); !done) return done;
     std::error_code ec;
-    out_.bytes += std::filesystem::file_size(ground, ec);
+    out_.bytes += std::filesystem::file_size(folder_ / name, ec);
     return {};
   }
 
@@ -237,9 +230,21 @@ class Writer {
       kind.name = labels[i];
       const std::string name = fmt::format("species-{}.toml", i + 1);
       text_ += fmt::format("\n[[species]]\nname = {}\nfile = {}\n", toml_text(labels[i]), beside(name));
+      if (kind.derived) text_ += "derived = true\n";
+      if (labels[i] != d_.species[i]->name)
+        warn(fmt::format("a species '{}' is '{}' in the recipe, where names differ", d_.species[i]->name, labels[i]));
       if (auto done = put(folder_ / name, species_text(kind)); !done) return done;
     }
     for (const distribution::Interaction& interaction : d_.interactions) {
+      const auto known = [&](const std::string& name) {
+        return std::find(labels.begin(), labels.end(), name) != labels.end() ||
+               !scene::builtin_species_text(name).empty();
+      };
+      if (!known(interaction.of) || !known(interaction.on)) {
+        warn(fmt::format("what '{}' does to '{}' is not in the recipe, which knows no such species", interaction.of,
+                         interaction.on));
+        continue;
+      }
       TomlText one{"interaction", {}, {}};
       describe(interaction, one);
       text_ += "\n[[interaction]]\n" + one.keys;
@@ -290,23 +295,41 @@ class Writer {
     text_ += table("space", d_.space) + table("asymmetry", d_.asymmetry) + table("light", d_.light);
     text_ += fmt::format("\n[sun]\nazimuth_deg = {}\nelevation_deg = {}\n", number(d_.sun.azimuth_deg),
                          number(d_.sun.elevation_deg));
-    for (const scene::Camera& camera : d_.cameras) {
-      const auto place = [&](const Vec3& p) {
-        const Vec2 plan = to_plan(p);
-        float ground = d_.terrain->ground(plan);
-        if (const auto water = d_.terrain->water_level(plan)) ground = std::max(ground, *water);
-        return fmt::format("[{}, {}, {}]", number(plan.x), number(plan.y), number(p.y - ground));
-      };
-      text_ += fmt::format("\n[[camera]]\nname = {}\neye = {}\ntarget = {}\nfov_deg = {}\n", toml_text(camera.name),
-                           place(camera.eye), place(camera.target), number(camera.vertical_fov_deg));
+    const auto place = [](const Vec3& p) {
+      const Vec2 plan = to_plan(p);
+      return fmt::format("[{}, {}, {}]", number(plan.x), number(plan.y), number(p.y));
+    };
+    for (const scene::Camera& camera : d_.cameras)
+      text_ +=
+          fmt::format("\n[[camera]]\nname = {}\neye = {}\ntarget = {}\non_ground = false\nfov_deg = {}\n",
+                      toml_text(camera.name), place(camera.eye), place(camera.target), number(camera.vertical_fov_deg));
+    text_ += table("clearance", d_.clearance) + table("plan", d_.plan);
+    if (const scene::Underlay& underlay = d_.underlay; !underlay.file.empty()) {
+      TomlText keys{"underlay", {}, {}};
+      describe(underlay, keys);
+      // By its way from the recipe, so that both can be moved together.
+      const path file = std::filesystem::absolute(underlay.file).lexically_normal();
+      const path way = file.lexically_relative(std::filesystem::absolute(target_).lexically_normal().parent_path());
+      text_ += fmt::format("\n[underlay]\nfile = {}\nsouth_west = [{}, {}]\n{}",
+                           toml_text((way.empty() ? file : way).generic_string()), number(underlay.south_west.x),
+                           number(underlay.south_west.y), keys.keys);
     }
+    const std::vector<std::string> labels = scene::species_labels(d_);
+    for (const distribution::MixEntry& entry : d_.species_bar) {
+      text_ += fmt::format("\n[[species_bar]]\nspecies = {}\nshare = {}\n", toml_text(labels[entry.species]),
+                           number(entry.probability));
+      if (entry.scale_min > 0.0f || entry.scale_max > 0.0f)
+        text_ += fmt::format("scale = {}\n", point({entry.scale_min, entry.scale_max}));
+    }
+    text_ += fmt::format("\n[counters]\nnext_tree = {}\nnext_standing = {}\nnext_block = {}\n", d_.next_tree_id,
+                         d_.next_standing_id, natural(d_.next_block));
     text_ += fmt::format("\n[export]\nmax_triangles = {}\n", d_.max_triangles);
-    if (!d_.species_bar.empty()) out_.warnings.push_back("the species bar of the brushes is not in the recipe");
     return {};
   }
 
   const scene::Document& d_;
   path target_, folder_;
+  scene::Georeference place_;  ///< that the rasters have
   std::string text_;
   WrittenRecipe out_;
 };

@@ -1,11 +1,13 @@
 // Recipe writer: a document as a recipe with its data files beside it, so that it can be read, kept under version control
 // and changed by hand.
 //
-// Files     NAME.toml, and in the folder NAME-files: trees.csv (every tree with its id and key), ground.tif, a .toml for
-//           each species, obstacles as .obj, hero trees as .tree.json
-// Holds     the recipe makes the same skeletons as the document did (report key skeleton_digest)
-// Left out  masks of planting density and of barred areas, covers and ponds, which no recipe tells by cells; the species
-//           bar of brushes. What of them a document has stands in `warnings`
+// Files     NAME.toml, and in the folder NAME-files: trees.csv (every tree with its id and key), ground.tif and map.tif
+//           (ground_rasters.h), a .toml for each species, obstacles as .obj, hero trees as .tree.json. An underlay stays
+//           where it is and is named by the way from the recipe to it
+// Holds     the recipe makes a document with the same digests (scene/document_digest.h), and with them the same skeletons,
+//           if there is no warning
+// Warned    two species of one name, a reference system that no recipe takes, interactions with unknown species, a ground
+//           with cells of another width than a recipe's
 // Errors    a file that cannot be written, by name
 #pragma once
 

@@ -214,7 +214,11 @@ struct Pipeline::State {
     const PipelineOptions& o = job.options;
     const bool other_look = o.detail != options.detail || o.year != options.year || o.meshes != options.meshes ||
                             o.season != options.season || o.foliage != options.foliage;
-    if (by.site || !by.ground.height.empty() || other_look) mark_all();
+    if (by.site || other_look) mark_all();
+    // Trees rise and sink with the ground under them.
+    if (document && !by.ground.height.empty())
+      for (const Tree& tree : trees)
+        if (document->terrain->ground(tree.at) != now.terrain->ground(tree.at)) records[tree.id].dirty = true;
 
     document = std::move(now);
     options = job.options;

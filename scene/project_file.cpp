@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <string_view>
 
 #include "scene/project_lock.h"
 #include "scene/project_store.h"
@@ -15,6 +16,9 @@ namespace bosquet::scene {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Ending of the name that a file has until it is whole.
+constexpr std::string_view kForerunner = ".part";
 
 // Which file a path names now.
 struct FileIdentity {
@@ -55,12 +59,28 @@ void settle_journal(const fs::path& path) {
     (void)old->integer("SELECT count(*) FROM sqlite_schema");
 }
 
+// Unfinished files that crashes left beside a project. Whoever holds its lock may call them that.
+void remove_forerunners(const fs::path& path) {
+  const std::string begin = "." + path.filename().string() + "-";
+  std::error_code ec;
+  for (fs::directory_iterator at(path.parent_path(), ec), end; !ec && at != end; at.increment(ec)) {
+    const std::string name = at->path().filename().string();
+    if (name.size() == begin.size() + 6 + kForerunner.size() && name.starts_with(begin) &&
+        name.ends_with(kForerunner)) {
+      std::error_code gone;
+      fs::remove(at->path(), gone);
+    }
+  }
+}
+
 // A new file at `path`, whole or not at all; `store` knows then what is in it.
 Result<void> write_new(const fs::path& path, const Document& document, ProjectStore& store) {
   std::error_code ec;
   if (fs::is_directory(path, ec)) return Error{fmt::format("{}: is a folder, not a file", path.string())};
+  remove_forerunners(path);
   std::string hidden = (path.parent_path() / ("." + path.filename().string() + "-XXXXXX")).string();
-  const int descriptor = ::mkstemp(hidden.data());
+  hidden += kForerunner;
+  const int descriptor = ::mkstemps(hidden.data(), static_cast<int>(kForerunner.size()));
   if (descriptor < 0)
     return Error{fmt::format("{}: cannot be written; its folder is missing or may not be written", path.string())};
   ::fchmod(descriptor, 0644);

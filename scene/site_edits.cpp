@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "geometry/prism.h"
 #include "terrain/exclusion.h"
@@ -32,6 +34,68 @@ void settle(Edited& edited, const Document& before, Displaced what) {
   edited.notes.push_back(fmt::format("{} taken away", trees_in_words(edited.trees.size())));
 }
 
+// Places along the foot of an obstacle: its outline, or the rectangle that a mesh covers.
+constexpr float kFootStep_m = 0.5f;
+constexpr std::size_t kMostFootPlaces = 1000;
+
+std::vector<Vec2> foot_of(const Obstacle& o) {
+  Box2 box;
+  std::vector<Vec2> ring;
+  if (o.outline) {
+    ring = o.outline->ring;
+  } else {
+    for (const Vec3& p : o.mesh->positions) box.add(to_plan(p));
+    if (!box.empty()) ring = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
+  }
+  float around = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) around += glm::distance(ring[i], ring[(i + 1) % ring.size()]);
+  const float step = std::max(kFootStep_m, around / static_cast<float>(kMostFootPlaces));
+  std::vector<Vec2> places;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2 from = ring[i], to = ring[(i + 1) % ring.size()];
+    const int pieces = 1 + static_cast<int>(glm::distance(from, to) / step);
+    for (int n = 0; n < pieces; ++n)
+      places.push_back(from + static_cast<float>(n) / static_cast<float>(pieces) * (to - from));
+  }
+  return places;
+}
+
+// The obstacle on the ground after an edit; nothing when it stays as it is.
+std::optional<Obstacle> following(const Obstacle& o, const terrain::Terrain& before, const terrain::Terrain& now) {
+  const std::vector<Vec2> foot = foot_of(o);
+  if (foot.empty()) return {};
+  std::vector<float> rises;
+  float old_lowest = before.ground(foot.front()), lowest = now.ground(foot.front());
+  for (Vec2 p : foot) {
+    const float was = before.ground(p), is = now.ground(p);
+    rises.push_back(is - was);
+    old_lowest = std::min(old_lowest, was), lowest = std::min(lowest, is);
+  }
+  const auto middle = rises.begin() + static_cast<std::ptrdiff_t>(rises.size() / 2);
+  std::nth_element(rises.begin(), middle, rises.end());
+  const float rise = *middle;
+  Obstacle out = o;
+  out.low_y += rise, out.high_y += rise;
+  if (o.outline && o.low_y <= old_lowest) out.low_y = std::min(out.low_y, lowest - kFoundation_m);
+  if (o.outline ? out.low_y == o.low_y && out.high_y == o.high_y : rise == 0.0f) return {};
+  TriangleMesh mesh = o.outline ? geometry::prism(*o.outline, out.low_y, out.high_y) : *o.mesh;
+  if (!o.outline)
+    for (Vec3& p : mesh.positions) p.y += rise;
+  out.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+  return out;
+}
+
+void follow_ground(Edited& edited, const Document& before) {
+  Document& d = edited.document;
+  if (before.terrain->height.grid().shares_all(d.terrain->height.grid())) return;
+  std::size_t followed = 0;
+  for (std::size_t i = 0; i < d.obstacles.size(); ++i)
+    if (auto now = following(d.obstacles[i], *before.terrain, *d.terrain))
+      d.obstacles.replace(i, std::move(*now)), ++followed;
+  if (followed > 0)
+    edited.notes.push_back(fmt::format("{} obstacle{} with the ground", followed, followed == 1 ? " goes" : "s go"));
+}
+
 template <class List>
 std::size_t place_of(const List& list, std::int32_t id) {
   const auto at = std::find_if(list.begin(), list.end(), [&](const auto& item) { return item.id == id; });
@@ -45,6 +109,7 @@ Edited set_ground(const Document& document, terrain::Terrain terrain, std::strin
   edited.document = document;
   edited.document.terrain = std::make_shared<const terrain::Terrain>(std::move(terrain));
   edited.name = std::move(name);
+  follow_ground(edited, document);
   settle(edited, document, displaced);
   return edited;
 }
@@ -83,16 +148,20 @@ Edited dig_pond(const Document& document, const std::string& name, const Polygon
   return edited;
 }
 
-Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground) {
-  float lowest = ground.ground(outline.ring.front()), sum = 0;
-  for (Vec2 p : outline.ring) lowest = std::min(lowest, ground.ground(p)), sum += ground.ground(p);
+Obstacle extruded_between(std::string name, Polygon outline, float low_y, float high_y) {
   Obstacle out;
   out.name = std::move(name);
-  out.low_y = lowest - kFoundation_m;
-  out.high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
+  out.low_y = low_y, out.high_y = high_y;
   out.mesh = std::make_shared<const TriangleMesh>(geometry::prism(outline, out.low_y, out.high_y));
   out.outline = std::make_shared<const Polygon>(std::move(outline));
   return out;
+}
+
+Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground) {
+  float lowest = ground.ground(outline.ring.front()), sum = 0;
+  for (Vec2 p : outline.ring) lowest = std::min(lowest, ground.ground(p)), sum += ground.ground(p);
+  const float high_y = sum / static_cast<float>(outline.ring.size()) + height_m;
+  return extruded_between(std::move(name), std::move(outline), lowest - kFoundation_m, high_y);
 }
 
 Result<Edited> add_obstacle(const Document& document, Obstacle obstacle, Displaced displaced) {

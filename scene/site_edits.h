@@ -3,7 +3,9 @@
 // Model     trees keep their plan positions: they rise and sink with the ground
 // Decision  trees that come to stand on an exclusion, in water or inside a building stay where they are and are listed in
 //           `displaced`; with Displaced::remove those of them that are not locked are taken away in the same step
-// Decision  obstacles and hero trees stand at the height they were set at; hero trees follow the ground
+// Decision  hero trees follow the ground. An obstacle rises and sinks with it when more than half of the ground along its
+//           foot does, by the median of what it does there: heaping earth against a house lifts no house, a hill raised
+//           under it or real heights imported beneath it do. Its walls always go down to the ground where they did
 // Frame     plan (east, north) metres; levels in metres, up
 // Errors    what cannot be, by name
 #pragma once
@@ -47,6 +49,8 @@ Result<Edited> remove_obstacle(const Document& document, std::int32_t id);
 Result<Edited> move_hero(const Document& document, std::int32_t id, Vec2 to);
 Result<Edited> remove_hero(const Document& document, std::int32_t id);
 
+/// An outline extruded between two heights.
+Obstacle extruded_between(std::string name, Polygon outline, float low_y, float high_y);
 /// An extruded outline from a little below the lowest ground at it up to `height_m` above the mean of the ground there.
 Obstacle extruded(std::string name, Polygon outline, float height_m, const terrain::Terrain& ground);
 

@@ -7,12 +7,16 @@
 #include "core/stopwatch.h"
 #include "crowns/asymmetry.h"
 #include "crowns/update_space.h"
+#include "terrain/difference.h"
 
 namespace bosquet::scene {
 namespace {
 
 // However high the clear stem is ordered, some crown is left above it.
 constexpr float kHighestCrownBase = 0.9f;
+
+// When most of the ground was reshaped, and it is more than this, all is divided at once.
+constexpr std::size_t kFewTiles = 9;
 
 bool shaded(const Document& document, const SpaceStages& stages) {
   return stages.light && stages.regions && document.light.canopy_light;
@@ -34,9 +38,8 @@ std::vector<crowns::Claimant> claimants(const Document& document) {
       shape.trunk_height_m =
           std::min(std::max(tree.form.clipped() ? 0.0f : shape.trunk_height_m, tree.clear_stem_m / tree.scale_height),
                    kHighestCrownBase * shape.mature_height_m);
-    claims.push_back(
-        {tree.key, tree.id, tree.at, document.terrain->ground(tree.at), shape, tree.scale_height, tree.scale_width,
-         !tree.form.clipped()});
+    claims.push_back({tree.key, tree.id, tree.at, document.terrain->ground(tree.at), shape, tree.scale_height,
+                      tree.scale_width, !tree.form.clipped()});
   }
   return claims;
 }
@@ -76,10 +79,15 @@ Result<SurroundingsUpdate> update_surroundings(const Surroundings& around, const
     out.touched.resize(document.trees->size());
     std::iota(out.touched.begin(), out.touched.end(), std::size_t{0});
   };
-  const bool same_heights =
-      before.terrain == document.terrain || (before.terrain->height.lattice() == document.terrain->height.lattice() &&
-                                             before.terrain->height.grid().shares_all(document.terrain->height.grid()));
-  if (!same_heights || !stages.regions) {
+  crowns::Reshaped ground;
+  const bool same_site = before.terrain->height.lattice() == document.terrain->height.lattice();
+  if (same_site && before.terrain != document.terrain)
+    ground.where = terrain::reshaped(before.terrain->height, document.terrain->height);
+  if (!ground.where.empty()) ground.before = before.terrain.get();
+  const IVec2 tiles = document.terrain->height.grid().tiles();
+  const bool most =
+      2 * ground.where.size() > static_cast<std::size_t>(tiles.x * tiles.y) && ground.where.size() > kFewTiles;
+  if (!same_site || most || !stages.regions) {
     auto whole = surround(document, stages, standing, warnings, nullptr, progress);
     if (!whole) return whole.error();
     out.now = std::move(*whole);
@@ -89,20 +97,21 @@ Result<SurroundingsUpdate> update_surroundings(const Surroundings& around, const
 
   auto there = standing.of(document, warnings);
   if (!there) return there.error();
-  auto update = crowns::update_space(around.space, claimants(document), *there, *document.terrain, document.space);
+  auto update =
+      crowns::update_space(around.space, claimants(document), *there, *document.terrain, document.space, ground);
   if (!update) return update.error();
   if (progress && progress->cancelled()) return cannot_finish("cancelled");
-  const terrain::Terrain* ground = document.terrain.get();
+  const terrain::Terrain* terrain = document.terrain.get();
   out.now.stages = stages;
   std::vector<std::size_t> pressed, shaded_anew;
   if (!stages.asymmetry) {
     out.now.asymmetry.assign(document.trees->size(), Vec3(0.0f));
   } else if (update->whole || before.asymmetry != document.asymmetry) {
-    out.now.asymmetry = crowns::neighbourhood_asymmetry(update->space, document.asymmetry, ground);
+    out.now.asymmetry = crowns::neighbourhood_asymmetry(update->space, document.asymmetry, terrain);
     all();
   } else {
     out.now.asymmetry =
-        crowns::update_asymmetry(around.space, around.asymmetry, *update, document.asymmetry, ground, &pressed);
+        crowns::update_asymmetry(around.space, around.asymmetry, *update, document.asymmetry, terrain, &pressed);
   }
   if (shaded(document, stages)) {
     if (update->whole || !shaded(before, stages) || before.light != document.light) {

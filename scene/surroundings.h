@@ -3,8 +3,8 @@
 // Model     made of a document at once, or from those of a document before it with only what the edit can have changed
 //           computed anew (crowns/update_space.h)
 // Holds     both ways give the same bits, after any number of edits
-// Cost      an update follows the edited trees and their neighbours. Other heights of the ground, other options of the
-//           crown space and a wider lattice divide all of the space anew
+// Cost      an update follows the edited trees, the ground that was reshaped and the trees beside it. Other heights of most
+//           of the ground, other options of the crown space and a wider lattice divide all of the space anew
 // Errors    a crown space too large for memory; obstacles that cannot be voxelised; cancelled work (kind cannot_finish)
 #pragma once
 

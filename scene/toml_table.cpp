@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -206,6 +207,24 @@ std::optional<std::int64_t> TomlTable::integer(std::string_view key, std::int64_
   return value;
 }
 
+std::optional<std::uint64_t> TomlTable::natural(std::string_view key) {
+  const toml::node* node = state_->ask(key);
+  if (!node) return {};
+  if (!node->is_string()) {
+    const auto value = integer(key, 0, std::numeric_limits<std::int64_t>::max());
+    return value ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt;
+  }
+  const std::string& text = node->as_string()->get();
+  std::uint64_t value = 0;
+  const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || mistake != std::errc() || end != text.data() + text.size()) {
+    error(key, fmt::format("{} = \"{}\" must be a whole number from 0 to {}", key, text,
+                           std::numeric_limits<std::uint64_t>::max()));
+    return {};
+  }
+  return value;
+}
+
 std::optional<bool> TomlTable::boolean(std::string_view key) {
   const toml::node* node = state_->ask(key);
   if (!node) return {};
@@ -352,6 +371,16 @@ void TomlTable::operator()(const Text& info, std::string& value) {
 }
 
 void TomlTable::operator()(const Colour& info, Vec3& value) {
+  if (const toml::node* node = state_->ask(info.name); node && node->is_array()) {
+    const auto parts = numbers(info.name, 3);
+    if (!parts) return;
+    for (int c = 0; c < 3; ++c) {
+      const double v = (*parts)[static_cast<std::size_t>(c)];
+      if (!(v >= 0 && v <= 1)) return error(info.name, fmt::format("{} = {:g} must be 0 to 1", info.name, v));
+      value[c] = static_cast<float>(v);
+    }
+    return;
+  }
   const auto v = text(info.name);
   if (!v) return;
   const bool hex = v->size() == 6 && v->find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;

@@ -51,6 +51,8 @@ class TomlTable {
   bool has(std::string_view key) const;
   std::optional<double> number(std::string_view key, double low, double high);
   std::optional<std::int64_t> integer(std::string_view key, std::int64_t low, std::int64_t high);
+  /// A whole number of 64 bits without sign; as a text when it has more than TOML's 63.
+  std::optional<std::uint64_t> natural(std::string_view key);
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> text(std::string_view key);
   std::optional<std::vector<std::string>> texts(std::string_view key);

@@ -34,4 +34,21 @@ Difference difference(const Terrain& before, const Terrain& after) {
   return d;
 }
 
+std::vector<Box2> reshaped(const Heightfield& before, const Heightfield& after) {
+  constexpr int kTile = TiledGrid<float>::kTile;
+  constexpr float kEndless_m = 1e9f;
+  const float cell = after.cell_m();
+  const IVec2 last = after.grid().tiles() - 1;
+  std::vector<Box2> out;
+  for (IVec2 t : changed_tiles(before.grid(), after.grid())) {
+    Box2 box{(Vec2(t * kTile) - 2.0f) * cell, (Vec2((t + 1) * kTile) + 2.0f) * cell};
+    for (int axis = 0; axis < 2; ++axis) {
+      if (t[axis] == 0) box.low[axis] = -kEndless_m;
+      if (t[axis] == last[axis]) box.high[axis] = kEndless_m;
+    }
+    out.push_back(box);
+  }
+  return out;
+}
+
 }  // namespace bosquet::terrain

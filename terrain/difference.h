@@ -40,4 +40,8 @@ struct Difference {
 
 Difference difference(const Terrain& before, const Terrain& after);
 
+/// Plan rectangles beyond which heights and slopes are as before; at an edge of the site they go on without end, since what
+/// lies off the site is read at its nearest edge. Values of different extent have no such rectangles.
+std::vector<Box2> reshaped(const Heightfield& before, const Heightfield& after);
+
 }  // namespace bosquet::terrain

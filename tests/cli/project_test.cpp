@@ -108,6 +108,65 @@ TEST_F(ProjectCommandTest, TreesAndObstaclesAreImportedIntoAProject) {
   EXPECT_EQ(bosquet("import q.bosquet").status, 1);
 }
 
+// A raster of `columns` x `rows` cells of 2 m with its corner at (`east`, `north`): a slope to the east, 1 m a cell.
+std::string slope(int columns, int rows, int east, int north, int from_m) {
+  std::string text = "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) + "\nxllcorner " +
+                     std::to_string(east) + "\nyllcorner " + std::to_string(north) + "\ncellsize 2\n";
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) text += std::to_string(from_m + c) + (c + 1 < columns ? " " : "\n");
+  return text;
+}
+
+TEST_F(ProjectCommandTest, AnElevationMakesTheSiteOfAProjectAndObstaclesStandOnIt) {
+  write("hill.asc", slope(20, 15, 1000, 2000, 300));
+  write("hut.obj", "v 4 0 -4\nv 8 0 -4\nv 8 0 -8\nv 6 3 -6\nf 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n");
+  write("houses.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"height":4,"name":"barn"},"geometry":
+        {"type":"Polygon","coordinates":[[[1010,2010],[1014,2010],[1014,2014],[1010,2014],[1010,2010]]]}}],
+        "crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}}})");
+  const Ran ground = bosquet("import p.bosquet --dem hill.asc");
+  ASSERT_EQ(ground.status, 0) << ground.err;
+  EXPECT_NE(ground.out.find("heights from 300.0 to 319.0 m"), std::string::npos) << ground.out;
+  ASSERT_EQ(bosquet("import p.bosquet --obstacle hut.obj").status, 0);
+  const Ran houses = bosquet("import p.bosquet --obstacle houses.geojson");
+  ASSERT_EQ(houses.status, 0) << houses.err;
+  auto read = scene::read_project(folder_ / "p.bosquet");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(scene::lines(read->state).empty());
+  const scene::Document d = read->document;
+  EXPECT_EQ(d.terrain->size_m(), Vec2(40, 30));
+  EXPECT_EQ(d.place.south_west, DVec2(1000, 2000));
+  EXPECT_EQ(d.terrain->ground({21, 10}), 310.0f);
+  ASSERT_EQ(d.obstacles.size(), 2u);
+  EXPECT_EQ(d.obstacles[0].name, "hut");
+  float lowest = 1e9f;
+  for (const Vec3& p : d.obstacles[0].mesh->positions) lowest = std::min(lowest, p.y);
+  EXPECT_EQ(lowest, 300.0f) << "on the ground at the site's corner";
+  EXPECT_EQ(d.obstacles[1].name, "barn");
+  EXPECT_EQ(d.obstacles[1].outline->bounds().low, Vec2(10, 10));
+  const float mean = 0.25f * 2 * (d.terrain->ground({10, 10}) + d.terrain->ground({14, 10}));
+  EXPECT_EQ(d.obstacles[1].high_y, mean + 4.0f);
+
+  // Other heights under a site that is there: cut to it, and what stands on it goes along.
+  write("higher.asc", slope(60, 60, 960, 1980, 500));
+  const Ran higher = bosquet("import p.bosquet --dem higher.asc");
+  ASSERT_EQ(higher.status, 0) << higher.err;
+  EXPECT_NE(higher.err.find("2 obstacles go with the ground"), std::string::npos) << higher.err;
+  read = scene::read_project(folder_ / "p.bosquet");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->document.terrain->size_m(), Vec2(40, 30));
+  EXPECT_EQ(read->document.terrain->ground({21, 10}), 530.0f);
+  EXPECT_EQ(read->document.obstacles[1].high_y, d.obstacles[1].high_y + 220.0f);
+  EXPECT_EQ(read->document.obstacles[1].low_y, d.obstacles[1].low_y + 220.0f);
+
+  // One that lies elsewhere is refused, and the project stays.
+  write("far.asc", slope(20, 15, 9000, 2000, 300));
+  const Ran far = bosquet("import p.bosquet --dem far.asc");
+  EXPECT_EQ(far.status, 1);
+  EXPECT_NE(far.err.find("does not cover the site"), std::string::npos) << far.err;
+  EXPECT_EQ(scene::digest(scene::read_project(folder_ / "p.bosquet")->document), scene::digest(read->document));
+}
+
 TEST_F(ProjectCommandTest, WhatASessionLeftIsListedAndSaved) {
   write_recipe();
   ASSERT_EQ(bosquet("make a.toml -o a.bosquet --quiet").status, 0);

@@ -7,6 +7,8 @@
 
 #include "core/parallel.h"
 #include "stands.h"
+#include "terrain/brush.h"
+#include "terrain/difference.h"
 
 namespace bosquet::crowns {
 namespace {
@@ -58,6 +60,19 @@ class Play {
     terrain_ =
         ground(kSide, [hilly](Vec2 p) { return hilly ? 0.3f * p.x + 0.02f * (p.y - 10.0f) * (p.y - 10.0f) : 0.0f; });
     for (int n = 0; n < 25; ++n) add_tree();
+  }
+
+  /// The ground is raised, lowered or smoothed somewhere; what stands on it goes along.
+  void reshape() {
+    terrain::Stroke stroke;
+    constexpr terrain::BrushKind kKinds[] = {terrain::BrushKind::raise, terrain::BrushKind::lower,
+                                             terrain::BrushKind::smooth};
+    stroke.kind = kKinds[draw_.below(3)];
+    stroke.points = {anywhere(), anywhere()};
+    stroke.radius_m = draw_.uniform(0.5f, 6.0f);
+    stroke.amount_m = draw_.uniform(0.1f, 4.0f);
+    terrain_ = terrain::apply(terrain_, stroke);
+    for (Claimant& t : trees_) t.ground_y = terrain_.ground(t.base);
   }
 
   void edit() {
@@ -133,14 +148,22 @@ class Play {
   std::int32_t last_id_ = 0, last_standing_ = 0;
 };
 
-void play(std::uint64_t seed, bool hilly, bool standing, SpaceOptions options, int edits) {
+void play(std::uint64_t seed, bool hilly, bool standing, SpaceOptions options, int edits, int reshape_every = 0) {
   options.keep_ticks = true;
   Play play(seed, hilly, standing, options);
   CrownSpace space = *divide_space(play.trees_, play.standing_, play.terrain_, options);
-  std::vector<Vec3> v = neighbourhood_asymmetry(space, {});
+  AsymmetryOptions lean;
+  lean.slope_weight = reshape_every ? 1.0f : 0.0f;
+  std::vector<Vec3> v = neighbourhood_asymmetry(space, lean, &play.terrain_);
   for (int n = 0; n < edits; ++n) {
-    play.edit();
-    auto update = update_space(space, play.trees_, play.standing_, play.terrain_, options);
+    const terrain::Terrain ground = play.terrain_;
+    Reshaped reshaped;
+    if (reshape_every && n % reshape_every == 0) {
+      play.reshape();
+      reshaped = {&ground, terrain::reshaped(ground.height, play.terrain_.height)};
+    }
+    if (!reshape_every || n % 3) play.edit();
+    auto update = update_space(space, play.trees_, play.standing_, play.terrain_, options, reshaped);
     ASSERT_TRUE(update) << update.error().message;
     ASSERT_FALSE(update->whole);
     const CrownSpace whole = *divide_space(play.trees_, play.standing_, play.terrain_, options);
@@ -161,8 +184,8 @@ void play(std::uint64_t seed, bool hilly, bool standing, SpaceOptions options, i
           << "seed " << seed << ", edit " << n << ", tree " << play.trees_[t].id;
     }
     std::vector<std::size_t> leaning;
-    const auto updated = update_asymmetry(space, v, *update, {}, nullptr, &leaning);
-    ASSERT_EQ(updated, neighbourhood_asymmetry(whole, {})) << "seed " << seed << ", edit " << n;
+    const auto updated = update_asymmetry(space, v, *update, lean, &play.terrain_, &leaning);
+    ASSERT_EQ(updated, neighbourhood_asymmetry(whole, lean, &play.terrain_)) << "seed " << seed << ", edit " << n;
     v = updated;
     space = std::move(update->space);
   }
@@ -193,6 +216,32 @@ TEST(SpaceUpdate, WithoutLimitOfReachToo) {
   o.speed_exponent = 0.5f;
   o.overhang_m = 3;
   play(42, false, true, o, 40);
+}
+
+TEST(SpaceUpdate, WhereTheGroundIsReshapedToo) {
+  for (std::uint64_t seed = 51; seed <= 53; ++seed) play(seed, seed % 2, seed > 51, coarse(), 40, 1);
+  // Over four tiles and what overhangs them.
+  play(61, true, true, coarse(0.25f), 10, 2);
+  play(62, false, false, unlimited(0.4f, 2.0f), 10, 1);
+}
+
+TEST(SpaceUpdate, ReshapedGroundTouchesOnlyTheTilesAroundIt) {
+  const auto trees = [](const terrain::Terrain& on) {
+    auto all = clustered(5, 400, 100.0f, 10.0f, 10.0f, 4.0f);
+    for (Claimant& t : all) t.ground_y = on.ground(t.base);
+    return all;
+  };
+  const terrain::Terrain before = flat(100);
+  const CrownSpace space = *divide_space(trees(before), before, SpaceOptions{});
+  terrain::Stroke stroke;
+  stroke.points = {{30, 30}}, stroke.radius_m = 4, stroke.amount_m = 1.5f;
+  const terrain::Terrain after = terrain::apply(before, stroke);
+  const auto update = *update_space(space, trees(after), {}, after, SpaceOptions{},
+                                    {&before, terrain::reshaped(before.height, after.height)});
+  EXPECT_FALSE(update.whole);
+  EXPECT_EQ(difference(update.space, *divide_space(trees(after), after, SpaceOptions{})), "");
+  EXPECT_GT(update.changed.size(), 1u);
+  EXPECT_LT(update.changed.size(), 60u);
 }
 
 TEST(SpaceUpdate, ItIsTheSameForAnyNumberOfThreads) {

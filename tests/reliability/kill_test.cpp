@@ -7,10 +7,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "../scene/scratch_files.h"
 #include "core/random.h"
@@ -27,6 +29,7 @@ struct Record {
 };
 static_assert(sizeof(Record) == 40);
 
+constexpr std::uint64_t kAny = 0, kSaveBegins = 3;
 constexpr std::uint64_t kSecond_ns = 1'000'000'000;
 
 std::uint64_t now_ns() {
@@ -42,8 +45,8 @@ struct Session {
 
 class KillTest : public ScratchTest {
  protected:
-  // Starts a session and kills it so long after so many records, whatever else the machine has to do.
-  Session kill_after(std::size_t records, std::uint64_t delay_us, std::uint64_t seed) {
+  // Starts a session and kills it so long after so many records of a kind, whatever else the machine has to do.
+  Session kill_after(std::size_t records, std::uint64_t kind, std::uint64_t delay_us, std::uint64_t seed) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
     const pid_t child = ::fork();
@@ -65,7 +68,12 @@ class KillTest : public ScratchTest {
       if (n > 0) bytes.append(some, static_cast<std::size_t>(n));
       return n > 0;
     };
-    while (bytes.size() < records * sizeof(Record) && take(20'000)) {
+    const auto there = [&] {
+      const std::vector<Record> said = records_in(bytes);
+      return static_cast<std::size_t>(
+          std::count_if(said.begin(), said.end(), [&](const Record& r) { return kind == kAny || r.kind == kind; }));
+    };
+    while (there() < records && take(20'000)) {
     }
     EXPECT_FALSE(bytes.empty()) << "the session did not start";
     for (const std::uint64_t until = now_ns() + delay_us * 1000; now_ns() < until;)
@@ -79,9 +87,23 @@ class KillTest : public ScratchTest {
       if (::fcntl(ends[0], F_GETFD) < 0) break;
     }
     ::close(ends[0]);
-    session.said.resize(bytes.size() / sizeof(Record));
-    std::memcpy(session.said.data(), bytes.data(), session.said.size() * sizeof(Record));
+    session.said = records_in(bytes);
     return session;
+  }
+
+  static std::vector<Record> records_in(const std::string& bytes) {
+    std::vector<Record> out(bytes.size() / sizeof(Record));
+    if (!out.empty()) std::memcpy(out.data(), bytes.data(), out.size() * sizeof(Record));
+    return out;
+  }
+
+  // Files of an unfinished save: what a transaction would undo, and forerunners of whole new files.
+  bool undone() const { return std::filesystem::exists(path().string() + "-journal"); }
+  std::set<std::string> forerunners() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      if (entry.path().extension() == ".part") names.insert(entry.path().filename());
+    return names;
   }
   std::filesystem::path path() const { return folder_ / "a.bosquet"; }
 };
@@ -90,20 +112,33 @@ TEST_F(KillTest, NothingOlderThanASecondIsLost) {
   const char* told = std::getenv("BOSQUET_KILLS");
   const int kills = told ? std::atoi(told) : 50;
   RandomStream random(1, 5, Purpose::statistics);
-  std::uint64_t edits = 0, in_a_save = 0, recovered_count = 0, lost = 0, oldest_lost_ns = 0;
+  std::uint64_t edits = 0, in_a_save = 0, in_transactions = 0, in_new_files = 0, recovered_count = 0, lost = 0;
+  std::uint64_t oldest_lost_ns = 0;
+  std::vector<std::uint64_t> save_us{4'000};  // how long the saves took that came to their end
   for (int n = 0; n < kills && !HasFailure(); ++n) {
+    // Two of three die at a random moment after a save began, the others anywhere.
+    const std::set<std::string> old_parts = forerunners();
+    std::nth_element(save_us.begin(), save_us.begin() + static_cast<std::ptrdiff_t>(save_us.size() / 2), save_us.end());
+    const auto usual_us = static_cast<std::uint32_t>(save_us[save_us.size() / 2]);
     const Session session =
-        kill_after(1 + random.below(n % 5 == 0 ? 4 : 60), random.below(8'000), static_cast<std::uint64_t>(n));
+        n % 3 ? kill_after(1 + random.below(6), kSaveBegins, random.below(usual_us), static_cast<std::uint64_t>(n))
+              : kill_after(1 + random.below(n % 5 == 0 ? 4 : 60), kAny, random.below(8'000),
+                           static_cast<std::uint64_t>(n));
     std::map<std::uint64_t, Record> edit;
     std::uint64_t saved = 0, saving = 0, durable = 0;
+    std::uint64_t began_ns = 0;
     for (const Record& r : session.said) {
       if (r.kind == 1) edit[r.edit] = r;
       if (r.kind == 2) durable = r.edit;
-      if (r.kind == 3) saving = r.edit;
+      if (r.kind == kSaveBegins) saving = r.edit, began_ns = r.time_ns;
       if (r.kind == 4) saved = r.edit;
+      if (r.kind == 4 && r.edit > 0) save_us.push_back((r.time_ns - began_ns) / 1000);
     }
     edits += edit.size();
     in_a_save += saving > saved;
+    in_transactions += saving > saved && undone();
+    for (const std::string& part : forerunners()) in_new_files += saving > saved && !old_parts.contains(part);
+    EXPECT_LE(forerunners().size(), 2u) << "what was left before goes with the next new file";
 
     // The project is the one last saved, or that of the save which was going on.
     const auto project = read_project(path());
@@ -141,12 +176,15 @@ TEST_F(KillTest, NothingOlderThanASecondIsLost) {
     if (n % 20 == 19) std::filesystem::remove(path());
   }
   std::printf(
-      "%d kills, %llu of them in a save; %llu edits, %llu sessions recovered; %llu edits lost, the oldest %.0f ms "
-      "old\n",
-      kills, static_cast<unsigned long long>(in_a_save), static_cast<unsigned long long>(edits),
+      "%d kills, %llu of them in a save (%llu with a transaction to undo, %llu with a new file unfinished); %llu "
+      "edits, "
+      "%llu sessions recovered; %llu edits lost, the oldest %.0f ms old\n",
+      kills, static_cast<unsigned long long>(in_a_save), static_cast<unsigned long long>(in_transactions),
+      static_cast<unsigned long long>(in_new_files), static_cast<unsigned long long>(edits),
       static_cast<unsigned long long>(recovered_count), static_cast<unsigned long long>(lost),
       1e-6 * static_cast<double>(oldest_lost_ns));
   EXPECT_GT(recovered_count, 0u);
+  EXPECT_GT(in_transactions, 0u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // A session that edits and saves a project until it is killed, telling on stdout what it did: session PROJECT STATE SEED
 //
+// Model     a third of the saves write the whole file anew, as "save as" does
 // Format    records of 40 bytes: kind (1 edited, 2 an edit is on the disk, 3 a save begins, 4 a save is done), edit number,
 //           nanoseconds of the monotonic clock, and for kind 1 the digest of the document
 #include <time.h>
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
     if (const std::uint64_t now = (*journal)->durable(); now > durable) tell(2, durable = now);
     if (random.below(12) == 0) {
       tell(3, edit);
-      if (!file->save(document)) return 1;
+      if (!(random.below(3) == 0 ? file->save_as(document, path) : file->save(document))) return 1;
       tell(4, edit);
       (*journal)->saved(path, edit);
     }

@@ -215,5 +215,50 @@ TEST(Edits, SpeciesInUseCannotGoAndTheOthersKeepTheirTrees) {
   EXPECT_FALSE(set_space(document, space));
 }
 
+// A house, a canopy on posts that are not drawn, and a mesh, on ground that is reshaped.
+TEST(Edits, AnObstacleGoesWithTheGroundWhenMostOfItDoes) {
+  Document before = meadow();
+  const Polygon square{{{10, 10}, {20, 10}, {20, 20}, {10, 20}}, {}};
+  before = add_building(before, "house", square, 6.0f)->document;
+  before = add_obstacle(before, extruded_between("canopy", square, 3.0f, 3.2f))->document;
+  Obstacle shed = extruded_between("shed", square, 0.0f, 2.0f);
+  shed.outline = nullptr;
+  before = add_obstacle(before, shed)->document;
+  const auto heights = [](const Obstacle& o) { return Vec2{o.low_y, o.high_y}; };
+  ASSERT_EQ(heights(before.obstacles[0]), Vec2(-0.3f, 6.0f));
+
+  // Earth heaped against one wall.
+  terrain::Stroke stroke;
+  stroke.points = {{10, 10}, {10, 20}}, stroke.radius_m = 3, stroke.amount_m = 1;
+  const Edited heaped = shape_ground(before, stroke);
+  EXPECT_EQ(heights(heaped.document.obstacles[0]), Vec2(-0.3f, 6.0f));
+  EXPECT_TRUE(heaped.document.obstacles.shares(before.obstacles));
+  EXPECT_TRUE(heaped.notes.empty());
+
+  // The same earth taken away: the wall goes down to what is left, the roof stays.
+  stroke.kind = terrain::BrushKind::lower;
+  const Document dug = shape_ground(before, stroke).document;
+  EXPECT_LT(dug.obstacles[0].low_y, -0.8f);
+  EXPECT_EQ(dug.obstacles[0].high_y, 6.0f);
+  EXPECT_EQ(heights(dug.obstacles[1]), Vec2(3.0f, 3.2f)) << "it never reached the ground";
+  float lowest = 0;
+  for (const Vec3& p : dug.obstacles[0].mesh->positions) lowest = std::min(lowest, p.y);
+  EXPECT_EQ(lowest, dug.obstacles[0].low_y);
+  EXPECT_EQ(dug.obstacles[0].id, before.obstacles[0].id);
+
+  // Real heights beneath everything.
+  terrain::Terrain high = *before.terrain;
+  high.height = terrain::Heightfield(high.height.lattice(), [](Vec2 p) { return 400.0f + 0.25f * p.x; });
+  const Edited lifted = set_ground(before, high, "Import ground");
+  const float rise = lifted.document.obstacles[0].high_y - 6.0f;
+  EXPECT_NEAR(rise, 403.75f, 0.25f) << "the middle of the slope";
+  EXPECT_EQ(lifted.document.obstacles[0].low_y, 402.5f - 0.3f);
+  EXPECT_EQ(heights(lifted.document.obstacles[1]), Vec2(3.0f + rise, 3.2f + rise));
+  float least = 1e9f;
+  for (const Vec3& p : lifted.document.obstacles[2].mesh->positions) least = std::min(least, p.y);
+  EXPECT_EQ(least, rise);
+  EXPECT_EQ(lifted.notes, std::vector<std::string>{"3 obstacles go with the ground"});
+}
+
 }  // namespace
 }  // namespace bosquet::scene

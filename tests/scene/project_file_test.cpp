@@ -251,6 +251,17 @@ TEST_F(ProjectFileTest, AChangeByAnotherProgramWhileItIsOpenIsAskedAbout) {
   expect_equal(before, read_whole(path));
 }
 
+TEST_F(ProjectFileTest, WhatAnUnfinishedSaveLeftGoesWithTheNextNewFile) {
+  const std::filesystem::path path = folder_ / "a.bosquet";
+  put(folder_ / ".a.bosquet-Ab12Cd.part", "half a project");
+  put(folder_ / ".b.bosquet-Ab12Cd.part", "of another");
+  put(folder_ / ".a.bosquet-backup", "somebody's own");
+  ASSERT_TRUE(write_project(full_document(3), path));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ".a.bosquet-Ab12Cd.part"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / ".b.bosquet-Ab12Cd.part"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / ".a.bosquet-backup"));
+}
+
 TEST_F(ProjectFileTest, ASecondOpenerReadsOnly) {
   const std::filesystem::path path = folder_ / "a.bosquet";
   const Document before = full_document(10);
