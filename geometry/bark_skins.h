@@ -96,7 +96,7 @@ class Mosaic {
 
   BarkPoint operator()(float u, float v) const {
     const float fine = grain_.fine(u, v), broad = grain_.broad(u, v), fibre = grain_.fibre(u, v);
-    const float wu = u + 0.55f * width_ * jag_(u, v), wv = v + 0.55f * width_ * jag_(v, u);
+    const float wu = u + 0.38f * width_ * jag_(u, v), wv = v + 0.38f * width_ * jag_(v, u);
     // Bare wood, pale; on it what has stayed.
     Vec3 colour = palette_.top * (1.0f + 0.10f * broad + 0.08f * fine);
     float height = 0.0f, shade = 0.0f;
@@ -112,11 +112,11 @@ class Mosaic {
         shade = std::max(shade, 1.0f - smooth_step(0.0f, 0.13f, hit.border));
       }
     };
-    lay(middle_, 0.48f, palette_.mark, 0.5f);
-    lay(old_, 0.40f, palette_.patch, 1.0f);
+    lay(middle_, 0.56f, palette_.mark, 0.5f);
+    lay(old_, 0.54f, palette_.patch, 1.0f);
     // Lately fallen pieces: bare again, the freshest with a greenish tinge.
     const TileCells::Hit hit = fallen_(wv, wu);
-    if (fallen_.random(hit.cell, 1) < 0.20f) {
+    if (fallen_.random(hit.cell, 1) < 0.16f) {
       const float edge = smooth_step(0.0f, 0.08f, hit.border);
       const Vec3 fresh = palette_.top * glm::mix(Vec3(1.0f), Vec3(0.97f, 1.02f, 0.92f), fallen_.random(hit.cell, 2));
       colour = glm::mix(0.6f * colour, fresh * (1.0f + 0.08f * fine), edge), height *= 1.0f - edge;

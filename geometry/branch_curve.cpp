@@ -105,7 +105,8 @@ void rank(std::span<BranchSample> path) {
     for (std::size_t j = a + 1; j < b; ++j) {
       const float t = (path[j].along - p.along) / (q.along - p.along);
       const float off = length(path[j].centre - glm::mix(p.centre, q.centre, t));
-      const float wide = 2.0f * std::abs(path[j].radius - glm::mix(p.radius, q.radius, t));
+      const float saddle = length(path[j].saddle - glm::mix(p.saddle, q.saddle, t));
+      const float wide = 2.0f * (std::abs(path[j].radius - glm::mix(p.radius, q.radius, t)) + saddle);
       const float error = std::max(off, wide) / (kTolerance_m + kToleranceOfRadius * path[j].wood);
       if (error > worst) worst = error, at = j;
     }
@@ -259,6 +260,9 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
           const float outside = fork.outside(s.centre);
           const float x = 1.0f - std::clamp(outside / collar, 0.0f, 1.0f);
           s.radius = std::min(s.wood * (1.0f + shape.collar * x * x), room);
+          const float hidden = 1.0f + std::clamp(outside / fork.radius, -1.0f, 0.0f);
+          s.saddle = std::min(shape.saddle * s.wood, 0.8f * fork.radius) * x * x * x * hidden * hidden * fork.heading;
+          s.crotch = x * x * x;
           if (j == 0 && k == 0) {
             s.radius = std::max(0.6f * s.wood, s.radius - protrusion(fork, s));
             room = std::max(s.wood, s.radius);

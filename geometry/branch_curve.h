@@ -4,8 +4,8 @@
 //           limbs that flow into each other); Yuksel et al. 2011 (centripetal Catmull-Rom curves)
 // Model     a centripetal Catmull-Rom curve through the nodes of a path. Where wood is thick for the length of its
 //           internodes the nodes are smoothed first, else rings of one bend would cut each other. A child's curve
-//           begins inside its parent, in the parent's direction, and leaves it in an arc; its radius swells into a
-//           collar near the parent's surface. A stem widens into a root flare and goes on under the ground
+//           begins inside its parent, in the parent's direction, and leaves it in an arc; it swells into a
+//           collar near the parent's surface, more along the parent than across, so that both flow into each other. A stem widens into a root flare and goes on under the ground
 // Decision  the radius at an internode's upper end is the internode's; between nodes it changes evenly
 // Decision  how much a sample matters is worked out once (Douglas and Peucker 1973, over position and radius together,
 //           in units of what is tolerated there), so that any coarser selection of rings is a filter
@@ -32,6 +32,8 @@ struct BranchSample {
   Vec3 centre{0.0f};
   Vec3 tangent{0.0f};  ///< unit, toward the tip
   float radius = 0;    ///< with collar and root flare
+  Vec3 saddle{0.0f};   ///< where it leaves its parent: how much wider it is along the parent, up and down, metres
+  float crotch = 0;    ///< 1 at the parent's surface and inside, 0 where the collar ends
   float wood = 0;      ///< radius without
   float along = 0;     ///< metres of centre line from the path's base; below 0 under the ground
   float light = 1;     ///< exposure in 0..1
@@ -56,7 +58,8 @@ struct BranchCurves {
 
 /// Shape of forks and feet; the same for all species so far.
 struct BranchShape {
-  float collar = 0.55f;            ///< how much wider a branch is where it leaves its parent
+  float collar = 0.45f;            ///< how much wider a branch is where it leaves its parent
+  float saddle = 0.95f;            ///< and by how much more along the parent
   float collar_length = 3.0f;      ///< in radii of the branch
   float root_flare = 0.55f;        ///< how much wider a stem is at the ground
   float root_flare_height = 3.0f;  ///< in radii of the stem; never above kFlareTop_m

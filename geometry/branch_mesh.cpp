@@ -27,6 +27,9 @@ constexpr float kThinTip_m = 0.006f;
 // The bark turns around a branch by so much of a tile for each tile along it.
 constexpr float kBarkTurn = 0.04f;
 
+// So much light is lost where a branch leaves its parent.
+constexpr float kCrotchShade = 0.35f;
+
 // Bark is drawn at most so many times smaller than life.
 constexpr float kSmallestBark = 1.0f / 12.0f;
 
@@ -69,8 +72,9 @@ void select_rings(std::span<const BranchSample> path, float tip_radius, float co
     const auto crossing = [&](const Ring& below) {
       const BranchSample& b = path[below.sample];
       const Vec3 step = s.centre - b.centre, tilt = s.tangent - b.tangent;
-      const float reach = 1.1f * std::max(s.radius, b.radius);
-      return glm::dot(step, step) < reach * reach * glm::dot(tilt, tilt);
+      const float saddle = std::max(std::abs(glm::dot(s.saddle, tilt)), std::abs(glm::dot(b.saddle, tilt)));
+      const float reach = 1.1f * (std::max(s.radius, b.radius) * std::sqrt(glm::dot(tilt, tilt)) + saddle);
+      return glm::dot(step, step) < reach * reach;
     };
     if (!last && !out.rings.empty() && crossing(out.rings.back())) continue;
     while (last && out.rings.size() > 1 && crossing(out.rings.back())) out.rings.pop_back();
@@ -173,12 +177,14 @@ class Mesher {
       const float taper = run > kLeastStep_m ? std::clamp((after.radius - before.radius) / run, -1.0f, 1.0f) : 0.0f;
 
       // In the crotch, where the branch leaves its parent, it is dark.
-      const float shade = occlusion(s.light) * (!stem && k == 0 ? 0.65f : 1.0f);
+      const float shade = occlusion(s.light) * (1.0f - kCrotchShade * s.crotch);
       const Vec3 tint = tints_.at(2.0f * s.wood, s.centre.y) * shade;
       const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
 
       v += 2.0f * (s.along - before.along) / (tile * (scale(s.wood) + scale(before.wood)));
-      const std::uint32_t top = add_ring(s, ring, frame, taper, {u0 + kBarkTurn * v, v0 - v}, repeats, colour);
+      const Vec3 widening = run > kLeastStep_m ? (after.saddle - before.saddle) / run : Vec3(0.0f);
+      const std::uint32_t top =
+          add_ring(s, ring, frame, taper, widening, {u0 + kBarkTurn * v, v0 - v}, repeats, colour);
       if (k > 0) join(below, rings.rings[k - 1].sides, top, ring.sides);
       below = top;
     }
@@ -202,11 +208,16 @@ class Mesher {
 
  private:
   /// Adds sides + 1 vertices, the first and the last at one place; their first index comes back.
-  std::uint32_t add_ring(const BranchSample& s, const Ring& ring, const Frame& frame, float taper, Vec2 uv,
-                         float repeats, Rgba8 colour) {
+  std::uint32_t add_ring(const BranchSample& s, const Ring& ring, const Frame& frame, float taper, const Vec3& widening,
+                         Vec2 uv, float repeats, Rgba8 colour) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const SinCos* angle = circle(ring.sides);
     const float lobe = ring.sides >= 12 && lobes_ > 0.0f ? 0.3f * (s.radius - s.wood) : 0.0f;
+    // An oval: longer along the parent, most in the crotch, least where a steep branch has its outer side.
+    const Vec3 oval = s.saddle - glm::dot(s.saddle, s.tangent) * s.tangent;
+    const float most = std::sqrt(glm::dot(s.saddle, s.saddle)), level = std::sqrt(glm::dot(oval, oval));
+    const bool saddled = level > 1e-3f * s.radius;
+    const float lean = saddled ? glm::dot(s.saddle, s.tangent) / most : 0.0f;
     for (int i = 0; i <= ring.sides; ++i) {
       const Vec3 out = angle[i].cos * frame.normal + angle[i].sin * frame.binormal;
       float radius = s.radius;
@@ -219,7 +230,16 @@ class Mesher {
         const Vec3 around = angle[i].cos * frame.binormal - angle[i].sin * frame.normal;
         normal += lobes_ * lobe * wave.sin / radius * around;
       }
-      mesh.positions.push_back(s.centre + radius * out);
+      Vec3 at = s.centre + radius * out;
+      if (saddled) {
+        const float share = glm::dot(out, oval) / level;
+        const float gain = share > 0.0f ? 1.0f + std::min(lean, 0.0f) : 1.0f - std::max(lean, 0.0f);
+        at += gain * share * level / most * s.saddle;
+        const float wider = gain * level;
+        normal -= share * wider / (radius + wider) * oval / level +
+                  gain * std::abs(share) * glm::dot(widening, oval) / level * s.tangent;
+      }
+      mesh.positions.push_back(at);
       mesh.normals.push_back(glm::normalize(normal));
       mesh.uvs.push_back({uv.x + repeats * static_cast<float>(i) / static_cast<float>(ring.sides), uv.y});
       mesh.colours.push_back(colour);

@@ -20,12 +20,12 @@ inline constexpr float kGroundTileM = 3.0f;
 inline constexpr Vec3 kGroundMean{0.42f, 0.42f, 0.38f};
 
 /// Albedos, linear, of what the ground may be.
-inline constexpr Vec3 kMeadowColour{0.105f, 0.135f, 0.045f};
+inline constexpr Vec3 kMeadowColour{0.092f, 0.117f, 0.045f};
 inline constexpr Vec3 kForestFloorColour{0.095f, 0.075f, 0.045f};
 inline constexpr Vec3 kSoilColour{0.120f, 0.085f, 0.055f};
 inline constexpr Vec3 kGravelColour{0.330f, 0.300f, 0.250f};
 inline constexpr Vec3 kPavingColour{0.380f, 0.370f, 0.350f};
-inline constexpr Vec3 kLawnColour{0.078f, 0.155f, 0.030f};
+inline constexpr Vec3 kLawnColour{0.066f, 0.098f, 0.034f};
 inline constexpr Vec3 kWetSandColour{0.150f, 0.120f, 0.085f};
 
 /// The linear vertex colour that gives the ground this mean albedo; clamped to 1.

@@ -21,7 +21,13 @@ Vec2 heading(float angle_deg) {  // 0 up, positive to the right
   return {a.sin, a.cos};
 }
 
-Vec3 albedo(const Vec3& colour) { return kLeafAlbedo * linear_from_srgb(colour); }
+// A leaf reflects less pure a green than a photograph's contrast gives it.
+constexpr float kPaler = 0.14f;
+
+Vec3 albedo(const Vec3& colour) {
+  const Vec3 seen = kLeafAlbedo * linear_from_srgb(colour);
+  return glm::mix(seen, Vec3(luminance(seen)), kPaler);
+}
 
 // The colours of one season, linear albedo.
 struct Dress {

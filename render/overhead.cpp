@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/parallel.h"
 #include "render/srgb.h"
@@ -124,8 +125,7 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
   constexpr float kNothing = -1e30f;
   map.ground.assign(cells, kNothing);
   std::vector<float> top(cells, kNothing);
-  float water_area = 0;
-  Box2 water_box;
+  std::map<float, WaterSurface> waters;
   glm::dvec4 albedo(0.0), edge_tint(0.0);
   for (const scene::Node& node : model.nodes)
     for (const scene::Part& part : node.parts) {
@@ -134,12 +134,13 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
       const scene::Material& material = model.materials[part.material];
       const bool ground = material.surface == scene::Surface::ground;
       if (material.surface == scene::Surface::water) {
-        const Box3 box = mesh.bounds();
-        if (!box.empty() && box.size().x * box.size().z > water_area) {
-          water_area = box.size().x * box.size().z;
-          map.water_level_m = box.high.y + node.translation.y;
-          const Vec2 corner(node.translation.x, node.translation.z);
-          water_box = {Vec2(box.low.x, box.low.z) + corner, Vec2(box.high.x, box.high.z) + corner};
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+          const auto corner = [&](std::size_t k) { return mesh.positions[mesh.indices[i + k]] + node.translation; };
+          const Vec3 a = corner(0), across = glm::cross(corner(1) - a, corner(2) - a);
+          WaterSurface& water = waters[a.y];
+          water.level_m = a.y;
+          water.area_m2 += 0.5f * std::abs(across.y);
+          for (std::size_t k = 0; k < 3; ++k) water.box.add(Vec2(corner(k).x, corner(k).z));
         }
         continue;
       }
@@ -150,6 +151,10 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
                   mesh.positions[mesh.indices[i + 2]] + node.translation,
                   [&](std::size_t cell, float height) { heights[cell] = std::max(heights[cell], height); });
     }
+  for (const auto& [level, water] : waters) map.waters.push_back(water);
+  std::stable_sort(map.waters.begin(), map.waters.end(),
+                   [](const WaterSurface& a, const WaterSurface& b) { return a.area_m2 > b.area_m2; });
+  if (!map.waters.empty()) map.water_level_m = map.waters.front().level_m;
   // Colours of the ground, and of its dry edge.
   for (const scene::Node& node : model.nodes)
     for (const scene::Part& part : node.parts) {
@@ -176,6 +181,7 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
       }
     }
   if (map.water_level_m && !map.ground_box.empty()) {
+    const Box2& water_box = map.waters.front().box;
     const Vec2 inside_low = water_box.low - map.ground_box.low, inside_high = map.ground_box.high - water_box.high;
     map.water_flows_on = std::min({inside_low.x, inside_low.y, inside_high.x, inside_high.y}) < kWaterEdgeM;
   }

@@ -16,6 +16,13 @@
 
 namespace bosquet::render {
 
+/// All water of one height.
+struct WaterSurface {
+  float level_m = 0;
+  float area_m2 = 0;
+  Box2 box;  ///< world x and z
+};
+
 struct Overhead {
   int columns = 0, rows = 0;
   Vec2 low{0.0f};  ///< world x and z of the first cell's corner
@@ -28,6 +35,7 @@ struct Overhead {
   float land_height = 0.0f;            ///< of plain land around the site: median of the ground along the site's edge
   Vec3 ground_albedo{0.16f};           ///< mean of the ground's base colour, linear
   Vec3 land_tint{0.16f};               ///< of plain land around: what the ground's edge multiplies its texture by
+  std::vector<WaterSurface> waters;    ///< the largest first
   std::optional<float> water_level_m;  ///< of the largest water surface
   bool water_flows_on = false;         ///< it reaches the ground's edge, so there is more of it beyond; a pond does not
 

@@ -126,6 +126,7 @@ struct Renderer::State {
   FrameBlock light_block(const View& view, const ViewVolume& volume);
   void use_atmosphere(const scene::Sun& sun, float turbidity);
   static void aim(FrameBlock& block, const ViewVolume& volume, const ClipWindow& window);
+  std::optional<float> mirror_level(const FrameBlock& block, const ViewVolume& volume) const;
   Result<void> draw_mirror(FrameBlock& block, const ViewVolume& volume, const View& view);
   Result<void> shade(FrameBlock& block, const ViewVolume& volume, const View& view);
   void draw_shadows(const ShadowTarget& map, const std::vector<Cascade>& cascades);
@@ -376,17 +377,30 @@ void Renderer::State::aim(FrameBlock& block, const ViewVolume& volume, const Cli
   block.view_point = Vec4(seen.origin, volume.orthographic ? 1.0f : 0.0f);
 }
 
+/// The level whose water fills most of the view, by area, slant and distance; none when no water can be seen.
+std::optional<float> Renderer::State::mirror_level(const FrameBlock& block, const ViewVolume& volume) const {
+  std::optional<float> level;
+  float most = 0;
+  for (const WaterSurface& water : model.overhead.waters) {
+    const Box3 box{{water.box.low.x, water.level_m, water.box.low.y},
+                   {water.box.high.x, water.level_m, water.box.high.y}};
+    if (volume.eye.y <= water.level_m || !may_be_seen(block.relative_to_clip, relative(box, volume.eye))) continue;
+    const Vec3 away = glm::clamp(volume.eye, box.low, box.high) - volume.eye;
+    const float distance = glm::length(away) + 1.0f;
+    const float size = std::min(water.area_m2, distance * distance) * (volume.eye.y - water.level_m) /
+                       (distance * distance * distance);
+    if (size > most) most = size, level = water.level_m;
+  }
+  return level;
+}
+
 /// The scene upside down for the water, when water can be seen: the whole picture at half its size. Says so in `block`.
 Result<void> Renderer::State::draw_mirror(FrameBlock& block, const ViewVolume& volume, const View& view) {
-  const std::optional<float> level = model.overhead.water_level_m;
-  if (!level || volume.eye.y <= *level || volume.orthographic) return {};
+  if (volume.orthographic) return {};
   FrameBlock flipped = block;
   aim(flipped, volume, {});
-  const bool seen = std::any_of(model.drawables.begin(), model.drawables.end(), [&](const Drawable& d) {
-    return model.materials[d.material].shader == Shader::water &&
-           may_be_seen(flipped.relative_to_clip, relative(d.box, volume.eye));
-  });
-  if (!seen) return {};
+  const std::optional<float> level = mirror_level(flipped, volume);
+  if (!level) return {};
 
   // Looked at from below the surface, as far down as the eye is above it.
   const float lift = 2 * (*level - volume.eye.y);
@@ -411,6 +425,7 @@ Result<void> Renderer::State::draw_mirror(FrameBlock& block, const ViewVolume& v
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_scene(flipped, volume, {true, *level}, true);
   block.water.z = 1;
+  block.water.w = *level;
   return {};
 }
 

@@ -138,7 +138,7 @@ float sunlit(vec3 relative, vec3 normal, float widen) {
 
 // Tone curve of Lottes 2016 on channels mixed a little, so that bright colours pale as film does.
 vec3 tone_mapped(vec3 c) {
-  const float mixed = 0.05, apart = 0.07;
+  const float mixed = 0.05, apart = 0.055;
   c = mix(c, vec3(c.r + c.g + c.b) / 3.0, mixed * 1.5);
   vec3 z = pow(max(c, vec3(0.0)), vec3(tone.x));
   c = z / (pow(z, vec3(tone.y)) * tone.z + tone.w);
@@ -178,6 +178,16 @@ vec3 ground_texture(sampler2D map, vec2 uv) {
   return mix(seen, textureLod(map, uv, 16.0).rgb, 0.9 * smoothstep(0.02, 0.15, tiles_per_pixel));
 }
 // Ground is never even: drier and lusher patches over many metres.
+// Tufts stand above what is between them; without their own shapes, by light and shade, gone with distance.
+vec3 tufts(vec2 p, float distance_m) {
+  float near = exp(-distance_m / 22.0);
+  if (near < 0.02) return vec3(1.0);
+  float clump = noise(p / 0.33) * 0.6 + noise(mat2(0.8, 0.6, -0.6, 0.8) * p / 0.11) * 0.4;
+  float dry = noise(p / 1.3 + 71.0);
+  vec3 shade = vec3(mix(0.66, 1.3, smoothstep(0.2, 0.8, clump)));
+  shade *= mix(vec3(1.0), vec3(1.16, 1.04, 0.84), smoothstep(0.55, 0.95, dry));
+  return mix(vec3(1.0), shade, near);
+}
 vec3 ground_patches(vec2 p) {
   float wide = layered_noise(p / 38.0) - 0.5, near = layered_noise(p / 7.0 + 31.0) - 0.5;
   return (1.0 + 0.28 * wide + 0.20 * near) *
@@ -307,7 +317,8 @@ void main() {
     float shore = water.y > 0.5 ? smoothstep(0.1, 0.6, world.y - water.x) : 1.0;
     albedo = mix(albedo, texel * land.rgb, (1.0 - smoothstep(0.3, 4.0, rim)) * shore);
   }
-  albedo *= ground_patches(world.xz);
+  float green = smoothstep(1.0, 1.12, albedo.g / max(albedo.r, 1e-3));
+  albedo *= ground_patches(world.xz) * mix(vec3(1.0), tufts(world.xz, length(v_relative)), green);
   // Soaked at the water's edge.
   float wet = water.y > 0.5 ? 1.0 - smoothstep(0.02, 0.30, world.y - water.x) : 0.0;
   albedo *= 1.0 - 0.45 * wet;
@@ -364,18 +375,20 @@ vec4 water_light(vec3 relative, vec3 v, float distance_m, float pixel_m) {
   // What it mirrors: the mirrored picture where there is one, shifted by the ripples, else the sky.
   vec3 r = reflect(-v, n);
   r.y = abs(r.y);
-  vec3 mirrored = clear_sky(r);
-  if (water.z > 0.5) {
+  // Water that no mirrored picture was drawn for sees banks and trees low down, sky above.
+  vec3 banks = vec3(0.050, 0.062, 0.030) / pi * (sky_light.rgb + 0.4 * sun_light.rgb);
+  vec3 mirrored = mix(banks, clear_sky(r), smoothstep(0.05, 0.35, r.y));
+  if (water.z > 0.5 && abs(world.y - water.w) < 0.02) {
     // A tilt by s moves the mirror image by about 2 s of the distance of what is mirrored, here some 10 m behind.
     vec2 right = normalize(ray_right.xz + 1e-6);
     vec2 side = vec2(0.6 * dot(slope, right), dot(slope, vec2(right.y, -right.x)));
     float shift = 2.0 * 10.0 / (distance_m + 10.0);
-vec2 at = (gl_FragCoord.xy + target.zw) / target.xy + vec2(side.x, -side.y) * shift * 0.5 / lens.xy;
+    vec2 at = (gl_FragCoord.xy + target.zw) / target.xy + vec2(side.x, -side.y) * shift * 0.5 / lens.xy;
     mirrored = texture(mirror_map, clamp(at, 0.002, 0.998)).rgb;
   }
 
   // Below: light fades with the way through the water, murky green takes its place.
-  float depth_m = max(water.x - bed_height(world.xz), 0.0);
+  float depth_m = max(world.y - bed_height(world.xz), 0.0);
   float way = depth_m / max(0.35, sqrt(1.0 - (1.0 - nv * nv) / 1.77)) + depth_m;
   vec3 passed = exp(-way * vec3(2.2, 1.3, 1.6));
   float lit = sunlit(relative, vec3(0.0, 1.0, 0.0), 0.4);
