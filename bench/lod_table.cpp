@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -165,4 +166,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace bosquet
 
-int main(int argc, char** argv) { return bosquet::run(argc, argv); }
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line as soon as it is known: the whole tree takes a while
+  return bosquet::run(argc, argv);
+}

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kMeasured = 64;  // samples across, to measure silhouettes
 constexpr float kFirstOverlap = 1.5f;
-constexpr int kRounds = 6;  // of measuring and mending
+constexpr float kOwnWay = 0.7f;
+constexpr int kRounds = 8;  // of measuring and mending
 
 struct Patch {
   Vec3 centre{0.0f}, normal{0.0f}, colour{0.0f};
@@ -61,23 +62,26 @@ std::vector<Patch> divide(const TriangleMesh& foliage, const Box3& box, std::siz
   std::erase_if(patches, [](const Patch& p) { return p.weight <= 0.0f; });
   for (Patch& p : patches) {
     p.centre = p.centre / p.weight, p.colour = p.colour / p.weight;
-    p.normal = unit(unit((p.centre - middle) / (half * half), kUp) + 0.3f * kUp, kUp);
+    p.normal = unit((p.centre - middle) / (half * half), kUp);
   }
   return patches;
 }
 
 std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
-TriangleMesh mesh_of(const std::vector<Patch>& patches, float side, const Vec3& tint, std::uint64_t key) {
+TriangleMesh mesh_of(const std::vector<Patch>& patches, float side, float lift, const Vec3& tint, std::uint64_t key) {
   TriangleMesh mesh;
   RandomStream random(1, key, Purpose::foliage);
   for (const Patch& p : patches) {
+    // No two alike: a crown's surface is clumps, not a ball's.
+    const Vec3 own_way{random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f)};
+    const Vec3 faces = unit(p.normal + kOwnWay * own_way + lift * kUp, kUp);
     AtlasCell cell = cluster_cell(static_cast<int>(random.below(2)));
     const float margin = 0.5f * kAtlasMargin;
     cell = {cell.u0 + margin, cell.v0 + margin, cell.u1 - margin, cell.v1 - margin};
     if (random.below(2)) std::swap(cell.u0, cell.u1);
     const float own = 0.5f * side * random.uniform(0.9f, 1.1f);
-    const Vec3 right = unit(glm::cross(kUp, p.normal), {1, 0, 0}), up = glm::cross(p.normal, right);
+    const Vec3 right = unit(glm::cross(kUp, faces), {1, 0, 0}), up = glm::cross(faces, right);
     const Vec3 colour = p.colour * tint;
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (int k = 0; k < 4; ++k) {
@@ -125,12 +129,12 @@ TriangleMesh crown_shell(const TriangleMesh& foliage, const RasterSkin& leaf, co
   // must be spread a little for its plan to be as wide.
   const Vec3 half = 0.5f * box.size();
   const float surface = 4.0f * kPi / 3.0f * (half.x * half.y + half.y * half.z + half.z * half.x);
-  float side = kFirstOverlap * std::sqrt(surface / static_cast<float>(parts.size())), spread = 1.0f;
+  float side = kFirstOverlap * std::sqrt(surface / static_cast<float>(parts.size())), spread = 1.0f, lift = 0.3f;
   Vec3 tint{1.0f};
   const auto built = [&] {
     std::vector<Patch> placed = parts;
     for (Patch& p : placed) p.centre = box.centre() + Vec3(spread, 1.0f, spread) * (p.centre - box.centre());
-    return mesh_of(placed, side, tint, key);
+    return mesh_of(placed, side, lift, tint, key);
   };
   Box3 around = box;
   around.add(box.low - 0.3f * half), around.add(box.high + 0.3f * half);
@@ -139,7 +143,10 @@ TriangleMesh crown_shell(const TriangleMesh& foliage, const RasterSkin& leaf, co
     const Seen got = look_at(mesh, mass, around);
     if (got.level <= 0.0f || got.above <= 0.0f || wanted.level <= 0.0f || wanted.above <= 0.0f) break;
     const float level = wanted.level / got.level, above = wanted.above / got.above;
-    spread = std::clamp(spread * std::sqrt(std::clamp(above / level, 0.6f, 1.6f)), 0.7f, 1.6f);
+    // More seen from above: patches lie flatter; where that is not enough, they stand farther out.
+    const float flatter = std::clamp(above / level, 0.6f, 1.6f);
+    lift = std::clamp(lift + 1.2f * (flatter - 1.0f), -0.3f, 2.5f);
+    spread = std::clamp(spread * std::sqrt(std::sqrt(flatter)), 0.8f, 1.2f);
     // Between the square root of the ratio (patches apart) and the ratio itself (patches that overlap).
     const float root = std::sqrt(std::sqrt(level * above));
     side *= std::clamp(root * std::sqrt(root), 0.7f, 1.4f);

@@ -2,7 +2,7 @@
 //
 // Model     directions spread evenly over a sphere (Fibonacci lattice) divide the foliage, seen from the crown's middle
 //           in units of its half extents, into as many parts as there are patches. A patch stands where its part is
-//           dense and far out, faces outward, bears the part's mean colour and shows a foliage mass (foliage_mass.h)
+//           dense and far out, faces outward and a little its own way, bears the part's mean colour and shows a foliage mass (foliage_mass.h)
 // Decision  patches are made as large, and as bright, as gives the crown the silhouette and the mean colour that the
 //           level raster measures of the full foliage, from three sides and from above
 // Units     metres, tree frame

@@ -150,8 +150,7 @@ TEST_F(Levels, AShellKeepsAreaAndColour) {
       box.add(shell.leaves.bounds());
       for (const bool above : {false, true}) {
         SCOPED_TRACE(above ? "from above" : "level");
-        // From above a patch of a slim crown stands on edge.
-        alike(seen(coarse, box, above), seen(full, box, above), above ? 0.2 : 0.15, 0.15);
+        alike(seen(coarse, box, above), seen(full, box, above), 0.09, 0.09);
       }
     }
   }
