@@ -259,7 +259,9 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
         } else if (in_collar) {
           const float outside = fork.outside(s.centre);
           const float x = 1.0f - std::clamp(outside / collar, 0.0f, 1.0f);
-          s.radius = std::min(s.wood * (1.0f + shape.collar * x * x), room);
+          // A steep branch lies against its parent anyway: a wide collar would show as a chin below it.
+          const float steep = std::max(0.0f, glm::dot(s.tangent, fork.heading));
+          s.radius = std::min(s.wood * (1.0f + shape.collar * (1.0f - 0.8f * steep) * x * x), room);
           const float hidden = 1.0f + std::clamp(outside / fork.radius, -1.0f, 0.0f);
           s.saddle = std::min(shape.saddle * s.wood, 0.8f * fork.radius) * x * x * x * hidden * hidden * fork.heading;
           s.crotch = x * x * x;

@@ -28,7 +28,7 @@ constexpr float kThinTip_m = 0.006f;
 constexpr float kBarkTurn = 0.04f;
 
 // So much light is lost where a branch leaves its parent.
-constexpr float kCrotchShade = 0.35f;
+constexpr float kCrotchShade = 0.2f;
 
 // Bark is drawn at most so many times smaller than life.
 constexpr float kSmallestBark = 1.0f / 12.0f;
