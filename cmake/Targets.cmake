@@ -16,6 +16,11 @@ if(BOSQUET_SANITIZE)
   target_link_options(bosquet_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # g++ takes a source that another one includes for a header.
+  target_compile_options(bosquet_options INTERFACE -Wno-subobject-linkage)
+endif()
+
 if(BOSQUET_TSAN)
   target_compile_options(bosquet_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(bosquet_options INTERFACE -fsanitize=thread)

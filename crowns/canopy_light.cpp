@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "crowns/region_runs.h"
 #include "crowns/sky.h"
+#include "crowns/space_layout.h"
 
 namespace bosquet::crowns {
 namespace {
@@ -60,7 +61,6 @@ std::size_t cell_index(IVec3 cell, IVec3 cells) {
          static_cast<std::size_t>(cell.x);
 }
 
-bool by_north_then_east(IVec2 a, IVec2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 struct TileOrder {
   bool operator()(IVec2 a, IVec2 b) const { return by_north_then_east(a, b); }
 };

@@ -4,14 +4,14 @@
 #include <cassert>
 #include <cmath>
 
+#include "crowns/space_layout.h"
+
 namespace bosquet::crowns {
 namespace {
 
-constexpr std::int32_t kEdge = kTileEdge;
-
 // Floor division: tile and column inside it of a column that may be negative.
 std::int32_t tile_of(std::int32_t column) { return column >> 6; }
-std::int32_t inside(std::int32_t column) { return column & (kEdge - 1); }
+std::int32_t inside(std::int32_t column) { return column & (kTileEdge - 1); }
 
 constexpr double kFarIndex = 0x1p30;  // beyond every lattice, within 32 bits
 
@@ -19,8 +19,6 @@ std::int32_t floor_index(double metres, float edge) {
   return static_cast<std::int32_t>(std::clamp(std::floor(metres / static_cast<double>(edge)), -kFarIndex, kFarIndex));
 }
 std::int32_t ceil_index(double metres, float edge) { return -floor_index(-metres, edge); }
-
-bool by_north_then_east(IVec2 a, IVec2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 
 }  // namespace
 
@@ -34,7 +32,7 @@ std::int32_t CrownSpace::owner(IVec3 voxel) const {
   const SpaceTile* tile = find_tile({tile_of(voxel.x), tile_of(voxel.z)});
   if (!tile || !tile->has(voxel.y)) return kFree;
   const std::int32_t held =
-      tile->owner[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kEdge + inside(voxel.x))];
+      tile->owner[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kTileEdge + inside(voxel.x))];
   return held < 0 ? held : claimant_of(held);
 }
 
@@ -46,7 +44,7 @@ std::int32_t CrownSpace::id(IVec3 voxel) const {
 std::uint64_t CrownSpace::ticks(IVec3 voxel) const {
   const SpaceTile* tile = find_tile({tile_of(voxel.x), tile_of(voxel.z)});
   if (!tile || !tile->has(voxel.y) || tile->ticks.empty()) return 0;
-  return tile->ticks[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kEdge + inside(voxel.x))];
+  return tile->ticks[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kTileEdge + inside(voxel.x))];
 }
 
 std::int32_t CrownSpace::owner_at(const Vec3& world) const {
@@ -101,11 +99,11 @@ CrownRegion region(const CrownSpace& space, std::size_t claimant) {
         const SpaceTile* tile = space.find_tile({te, tn});
         if (!tile || !tile->has(share.layer)) continue;
         const std::int32_t* owner = tile->owner.data() + tile->offset(share.layer);
-        const IVec2 corner{te * kEdge, tn * kEdge};
-        const IVec2 from = glm::max(share.low, corner), to = glm::min(share.high, corner + (kEdge - 1));
+        const IVec2 corner{te * kTileEdge, tn * kTileEdge};
+        const IVec2 from = glm::max(share.low, corner), to = glm::min(share.high, corner + (kTileEdge - 1));
         for (std::int32_t j = from.y; j <= to.y; ++j)
           for (std::int32_t i = from.x; i <= to.x; ++i)
-            if (owner[(j - corner.y) * kEdge + (i - corner.x)] == me)
+            if (owner[(j - corner.y) * kTileEdge + (i - corner.x)] == me)
               out.claim({i - low.x, share.layer - bottom, high.y - j});
       }
   return out;
@@ -119,8 +117,8 @@ SpaceSlice slice(const CrownSpace& space, float y, const Box2& area) {
   // What tiles cover of the area, in columns.
   IVec2 low{std::numeric_limits<std::int32_t>::max()}, high{std::numeric_limits<std::int32_t>::lowest()};
   for (const auto& tile : space.tiles()) {
-    low = glm::min(low, tile->tile * kEdge);
-    high = glm::max(high, tile->tile * kEdge + (kEdge - 1));
+    low = glm::min(low, tile->tile * kTileEdge);
+    high = glm::max(high, tile->tile * kTileEdge + (kTileEdge - 1));
   }
   if (area.empty() || low.x > high.x) return out;
   low = glm::max(low, IVec2{floor_index(area.low.x, out.voxel_m), floor_index(area.low.y, out.voxel_m)});
@@ -134,11 +132,11 @@ SpaceSlice slice(const CrownSpace& space, float y, const Box2& area) {
   for (const auto& tile : space.tiles()) {
     if (!tile->has(layer)) continue;
     const std::int32_t* owner = tile->owner.data() + tile->offset(layer);
-    const IVec2 corner = tile->tile * kEdge;
-    const IVec2 from = glm::max(low, corner), to = glm::min(high, corner + (kEdge - 1));
+    const IVec2 corner = tile->tile * kTileEdge;
+    const IVec2 from = glm::max(low, corner), to = glm::min(high, corner + (kTileEdge - 1));
     for (std::int32_t j = from.y; j <= to.y; ++j)
       for (std::int32_t i = from.x; i <= to.x; ++i) {
-        const std::int32_t held = owner[(j - corner.y) * kEdge + (i - corner.x)];
+        const std::int32_t held = owner[(j - corner.y) * kTileEdge + (i - corner.x)];
         out.ids[static_cast<std::size_t>(j - low.y) * static_cast<std::size_t>(out.width) +
                 static_cast<std::size_t>(i - low.x)] =
             held < 0 ? id_of_owner(held) : space.claimants()[static_cast<std::size_t>(space.claimant_of(held))].id;

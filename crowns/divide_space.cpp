@@ -18,7 +18,6 @@
 namespace bosquet::crowns {
 namespace {
 
-constexpr std::int32_t kEdge = kTileEdge;
 constexpr double kMostVoxel = 20.0;  // as described
 // Scratch of one layer at work: cell, open flag, result.
 constexpr double kScratchBytes = 16 + 1 + 4 + 8;
@@ -254,7 +253,7 @@ class SpaceBuilder {
     cells.open.reserve(plot_of.size() * kColumns);
     for (std::size_t n : plot_of) {
       const Plot& p = plots_[n];
-      cells.blocks.push_back({p.tile * kEdge, block(p.west), block(p.east), block(p.south), block(p.north)});
+      cells.blocks.push_back({p.tile * kTileEdge, block(p.west), block(p.east), block(p.south), block(p.north)});
       const std::int32_t* owner = tiles_[n]->owner.data() + tiles_[n]->offset(layer);
       for (std::size_t c = 0; c < kColumns; ++c) cells.open.push_back((*p.ground)[c] <= layer && owner[c] == kFree);
     }
@@ -307,12 +306,12 @@ class SpaceBuilder {
       for (const auto& tile : tiles_) {
         if (!tile->has(layer)) continue;
         const std::int32_t* row = tile->owner.data() + tile->offset(layer);
-        for (std::int32_t j = 0; j < kEdge; ++j, row += kEdge)
-          for (std::int32_t i = 0; i < kEdge;) {
+        for (std::int32_t j = 0; j < kTileEdge; ++j, row += kTileEdge)
+          for (std::int32_t i = 0; i < kTileEdge;) {
             const std::int32_t owner = row[i], from = i;
-            while (i < kEdge && row[i] == owner) ++i;
+            while (i < kTileEdge && row[i] == owner) ++i;
             if (owner < 0) continue;
-            add_run(shares[static_cast<std::size_t>(owner)], tile->tile * kEdge + IVec2{from, j}, i - from);
+            add_run(shares[static_cast<std::size_t>(owner)], tile->tile * kTileEdge + IVec2{from, j}, i - from);
           }
       }
       for (std::size_t t = 0; t < shares.size(); ++t) {

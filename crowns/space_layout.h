@@ -29,6 +29,7 @@ inline std::uint64_t packed(IVec2 v) {
   return (std::uint64_t{static_cast<std::uint32_t>(v.y)} << 32) | static_cast<std::uint32_t>(v.x);
 }
 inline IVec2 tile_of(IVec2 column) { return {column.x >> 6, column.y >> 6}; }
+inline bool by_north_then_east(IVec2 a, IVec2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 inline std::size_t inside(IVec2 column) {
   return static_cast<std::size_t>((column.y & (kTileEdge - 1)) * kTileEdge + (column.x & (kTileEdge - 1)));
 }

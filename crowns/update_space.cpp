@@ -18,7 +18,6 @@
 namespace bosquet::crowns {
 namespace {
 
-constexpr std::int32_t kEdge = kTileEdge;
 constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
 constexpr std::int32_t kGone = -1;
 // Rings of neighbours that are divided with the edited trees at first.
@@ -238,7 +237,7 @@ class LayerUpdate {
     for (Sheet& s : sheets_) {
       const IVec2 t = s.tile;
       cells.blocks.push_back(
-          {t * kEdge, block(t + kBeside[0]), block(t + kBeside[1]), block(t + kBeside[2]), block(t + kBeside[3])});
+          {t * kTileEdge, block(t + kBeside[0]), block(t + kBeside[1]), block(t + kBeside[2]), block(t + kBeside[3])});
       for (std::size_t c = 0; c < kColumns; ++c) {
         const bool theirs = s.before[c] == kFree || has_joined(s.before[c]);
         s.divided[c] = theirs;
@@ -272,20 +271,20 @@ class LayerUpdate {
     const std::size_t joined = set_.size(), sheets = sheets_.size();
     bool wider = false;
     for (std::size_t n = 0; n < sheets; ++n)
-      for (std::int32_t j = 0; j < kEdge; ++j)
-        for (std::int32_t i = 0; i < kEdge; ++i) {
-          const auto c = static_cast<std::size_t>(j * kEdge + i);
+      for (std::int32_t j = 0; j < kTileEdge; ++j)
+        for (std::int32_t i = 0; i < kTileEdge; ++i) {
+          const auto c = static_cast<std::size_t>(j * kTileEdge + i);
           const std::int32_t was = sheets_[n].before[c], is = sheets_[n].now[c];
           const bool grows = is >= 0 && changed[static_cast<std::size_t>(is)];
           if (!grows && !(was >= 0 && changed[static_cast<std::size_t>(was)])) continue;
-          const bool inner = i > 0 && j > 0 && i < kEdge - 1 && j < kEdge - 1;
+          const bool inner = i > 0 && j > 0 && i < kTileEdge - 1 && j < kTileEdge - 1;
           if (inner) {
-            for (std::int32_t step : {-1, 1, -kEdge, kEdge})
+            for (std::int32_t step : {-1, 1, -kTileEdge, kTileEdge})
               join(sheets_[n].before[static_cast<std::size_t>(static_cast<std::int32_t>(c) + step)]);
             continue;
           }
           for (IVec2 step : kBeside) {
-            const IVec2 column = sheets_[n].tile * kEdge + IVec2{i, j} + step;
+            const IVec2 column = sheets_[n].tile * kTileEdge + IVec2{i, j} + step;
             if (edit_.before.find_tile(tile_of(column))) join(before_if_held(column));
             if (!grows || !reaches(*edit_.new_place(is), column)) continue;
             const auto at = static_cast<std::size_t>(sheet_at(tile_of(column)));
@@ -493,7 +492,7 @@ class SpaceUpdater {
         if (u.owner < 0) continue;
         const auto c = static_cast<std::int32_t>(u.place % kColumns);
         edit.hidden.push_back({u.owner, tile->first_layer + static_cast<std::int32_t>(u.place / kColumns),
-                               tile->tile * kEdge + IVec2{c % kEdge, c / kEdge}});
+                               tile->tile * kTileEdge + IVec2{c % kTileEdge, c / kTileEdge}});
       }
     std::sort(edit.hidden.begin(), edit.hidden.end(), [](const Hidden& a, const Hidden& b) {
       return std::tie(a.slot, a.layer, a.column.y, a.column.x) < std::tie(b.slot, b.layer, b.column.y, b.column.x);
@@ -672,7 +671,7 @@ class SpaceUpdater {
       for (std::int32_t c = 0; c < kTileColumns; ++c) {
         const std::int32_t old = was ? was[c] : kFree;
         if (now[c] == old) continue;
-        const IVec2 column = tile.tile * kEdge + IVec2{c % kEdge, c / kEdge};
+        const IVec2 column = tile.tile * kTileEdge + IVec2{c % kTileEdge, c / kTileEdge};
         note(old, column), note(now[c], column);
       }
     }
@@ -776,10 +775,10 @@ class SpaceUpdater {
       share.layer = k;
       for (const SpaceTile* tile : tiles) {
         if (!tile->has(k)) continue;
-        const IVec2 corner = tile->tile * kEdge;
-        const IVec2 from = glm::max(columns.low, corner), to = glm::min(columns.high, corner + (kEdge - 1));
+        const IVec2 corner = tile->tile * kTileEdge;
+        const IVec2 from = glm::max(columns.low, corner), to = glm::min(columns.high, corner + (kTileEdge - 1));
         for (std::int32_t j = from.y; j <= to.y; ++j) {
-          const std::int32_t* row = tile->owner.data() + tile->offset(k) + (j - corner.y) * kEdge - corner.x;
+          const std::int32_t* row = tile->owner.data() + tile->offset(k) + (j - corner.y) * kTileEdge - corner.x;
           for (std::int32_t i = from.x; i <= to.x;) {
             if (row[i] != slot) {
               ++i;

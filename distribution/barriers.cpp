@@ -6,7 +6,7 @@
 namespace bosquet::distribution {
 namespace {
 
-constexpr float kFinestCell_m = 0.25f;
+constexpr float kFinestBarrier_m = 0.25f;
 constexpr float kMostCells = 4096.0f;  // along the longer side
 
 // From where to where a triangle reaches east between two latitudes, both within its own.
@@ -51,7 +51,7 @@ bool edge_within(const Region& region, Vec2 at, float radius_m) {
 
 Barriers::Barriers(Vec2 size_m) {
   const float longest = std::max(size_m.x, size_m.y);
-  cell_m_ = std::max(kFinestCell_m, longest / kMostCells);
+  cell_m_ = std::max(kFinestBarrier_m, longest / kMostCells);
   cells_ = glm::max(IVec2(size_m / cell_m_) + 1, IVec2(1));
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/scalar.h"
+#include "distribution/draws.h"
 
 namespace bosquet::distribution {
 namespace {
@@ -23,8 +24,6 @@ constexpr std::uint32_t kOpenAttempts = 4;
 
 // Brush centres are rounded to this, so that the rounding of interpolation does not reach the draw.
 constexpr float kBrushStep_m = 1.0f / 1024.0f;
-
-float unit(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
 
 // Draws trees one by one and remembers, until it goes, which cells have refused too often.
 class Sower {
@@ -74,9 +73,10 @@ class Sower {
       ++attempt;
       // What the suited sums would not have proposed, or only so often.
       if (which == Sums::open &&
-          unit(stream.at(numbers | kSuits)) * 255.0f >= static_cast<float>(field.suitability(*cell)))
+          unit_interval(stream.at(numbers | kSuits)) * 255.0f >= static_cast<float>(field.suitability(*cell)))
         continue;
-      const Vec2 offset{unit(stream.at(numbers | kOffsetEast)), unit(stream.at(numbers | kOffsetNorth))};
+      const Vec2 offset{unit_interval(stream.at(numbers | kOffsetEast)),
+                        unit_interval(stream.at(numbers | kOffsetNorth))};
       const Vec2 at = (Vec2(*cell) + offset) * field.cell_m();
       const StandingTree tree = standing_tree(key, species, planting_.species()[species], at, scale);
       if (contains(where, at) && planting_.refusal(tree) == Refusal::none) return at;
@@ -144,7 +144,7 @@ std::optional<std::size_t> draw_type(const Planting& planting, const Sowing& wha
     std::uint64_t same = 0;  // earlier entries of this species, told apart by their scales
     for (std::size_t m = 0; m < n; ++m) same += what.mix[m].species == entry.species ? 1 : 0;
     const std::uint64_t number = planting.name_hash(entry.species) + same;
-    const float time = -log2(unit(stream.at(kTypeNumbers | number)) + 0x1p-25f) / entry.probability;
+    const float time = -log2(unit_interval(stream.at(kTypeNumbers | number)) + 0x1p-25f) / entry.probability;
     if (!first || time < first_time) first = n, first_time = time;
   }
   return first;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scalar.h"
+#include "distribution/draws.h"
 
 namespace bosquet::distribution {
 namespace {
@@ -12,9 +13,7 @@ namespace {
 // Seedlings of one year are numbered from year * 2^32, so that more of them renumber those of no other year.
 constexpr int kYearBits = 32;
 // Numbers of a seedling's planting stream; sowing uses those from 2^30 on for other things.
-constexpr std::uint64_t kEast = 1, kNorth = 2, kSuits = 3, kLifespan = 4;
-
-float unit(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
+constexpr std::uint64_t kEast = 1, kNorth = 2, kSuited = 3, kLifespan = 4;
 
 struct Plant {
   StandingTree tree;  // at its final scale
@@ -101,16 +100,16 @@ class Stand {
     for (std::size_t n = 0; n < count; ++n) {
       const std::uint64_t key = tree_key(what_.block, first + n);
       const RandomStream stream(what_.seed, key, Purpose::planting);
-      const Vec2 at = box_.low + box_.size() * Vec2{unit(stream.at(kEast)), unit(stream.at(kNorth))};
+      const Vec2 at = box_.low + box_.size() * Vec2{unit_interval(stream.at(kEast)), unit_interval(stream.at(kNorth))};
       if (!contains(where_, at)) continue;
-      if (unit(stream.at(kSuits)) >= planting_.terrain().density.at(at)) continue;
+      if (unit_interval(stream.at(kSuited)) >= planting_.terrain().density.at(at)) continue;
       const auto type = draw_type(planting_, what_, key, {});
       if (!type) return;
       const std::uint32_t species = what_.mix[*type].species;
       const StandingTree tree =
           standing_tree(key, species, planting_.species()[species], at, draw_scale(planting_, what_, key, *type));
       if (planting_.refusal(tree) != Refusal::none) continue;
-      const float lifespan = rules_.lifespan_years * (0.8f + 0.4f * unit(stream.at(kLifespan)));
+      const float lifespan = rules_.lifespan_years * (0.8f + 0.4f * unit_interval(stream.at(kLifespan)));
       plants_.push_back({tree, first + n, year - 1, year - 1 + static_cast<int>(lifespan), 0.0f, 0.0f});
       ++seedlings;
     }

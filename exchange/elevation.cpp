@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "exchange/fill_gaps.h"
+#include "exchange/gdal_scope.h"
 
 namespace bosquet::exchange {
 namespace {
@@ -23,28 +24,6 @@ namespace {
 constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937.0;
 // Metres; what lies beyond is no ground but a no-data value that the file does not declare (-32768).
 constexpr double kLowest = -12'000, kHighest = 100'000;
-
-// GDAL reports through a handler of the calling thread; its last words go into our message.
-class GdalMessages {
- public:
-  GdalMessages() {
-    CPLErrorReset();
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-  }
-  ~GdalMessages() { CPLPopErrorHandler(); }
-  GdalMessages(const GdalMessages&) = delete;
-  GdalMessages& operator=(const GdalMessages&) = delete;
-
-  static std::string last() {
-    const char* text = CPLGetLastErrorMsg();
-    return text && *text ? std::string(": ") + text : std::string();
-  }
-};
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 
 void register_drivers() {
   static std::once_flag once;

@@ -18,6 +18,7 @@
 
 #include "core/vec.h"
 #include "exchange/file_output.h"
+#include "exchange/gltf_format.h"
 #include "exchange/gltf_json.h"
 
 namespace bosquet::exchange {
@@ -26,7 +27,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t kMaxBufferBytes = std::uint64_t{1} << 36;
-constexpr int kSignedByte = 5120, kByte = 5121, kSignedShort = 5122, kShort = 5123, kInt = 5125, kFloat = 5126;
 
 std::uint64_t component_bytes(std::uint64_t type) {
   switch (type) {

@@ -12,19 +12,14 @@
 #include <optional>
 #include <utility>
 
+#include "exchange/gltf_format.h"
+
 namespace bosquet::exchange {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// glTF's numbers for things.
-constexpr int kSignedByte = 5120, kByte = 5121, kSignedShort = 5122, kShort = 5123, kInt = 5125, kFloat = 5126;
-constexpr int kVertexBuffer = 34962, kIndexBuffer = 34963;
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kRepeat = 10497, kClamp = 33071;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr float kNear = 0.1f, kFar = 20'000.0f;  // metres, of cameras
-
-constexpr std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) & ~std::uint64_t{3}; }
 
 // The shortest text that reads back as this float, not the dozen digits of its double.
 double shortest(float value) {
@@ -34,17 +29,17 @@ double shortest(float value) {
   std::from_chars(text, end, out);
   return out + 0.0;  // no "-0.0"
 }
-Json numbers(const Vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
-Json numbers(const Vec4& v) { return {shortest(v.x), shortest(v.y), shortest(v.z), shortest(v.w)}; }
+OrderedJson numbers(const Vec3& v) { return {shortest(v.x), shortest(v.y), shortest(v.z)}; }
+OrderedJson numbers(const Vec4& v) { return {shortest(v.x), shortest(v.y), shortest(v.z), shortest(v.w)}; }
 
-Json number(double value) {
+OrderedJson number(double value) {
   // Whole numbers (ids, seeds, years) without ".0".
   if (value == std::floor(value) && std::abs(value) < 0x1p53) return static_cast<std::int64_t>(value);
   return value;
 }
 
-Json to_json(const scene::Extras& extras) {
-  Json out = Json::object();
+OrderedJson to_json(const scene::Extras& extras) {
+  OrderedJson out = OrderedJson::object();
   for (const auto& [name, value] : extras) {
     if (const auto* text = std::get_if<std::string>(&value))
       out[name] = *text;
@@ -117,26 +112,26 @@ class Document {
     add("bufferViews", views_);
     add("accessors", accessors_);
     buffers(files);
-    return root_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return root_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   }
 
  private:
-  void add(const char* name, Json& list) {
+  void add(const char* name, OrderedJson& list) {
     if (!list.empty()) root_[name] = std::move(list);
   }
 
   // Buffer 0 holds what is in the file; with packed views buffer 1 is what they unpack to, in a file of its own or
   // nowhere.
   void buffers(const GltfFiles& files) {
-    Json list = Json::array();
+    OrderedJson list = OrderedJson::array();
     const std::uint64_t bytes = (packed_ ? packed_->bytes : layout_.bytes) + (files.separate ? 0 : image_bytes());
     if (bytes > 0) {
-      Json& buffer = list.emplace_back(Json::object());
+      OrderedJson& buffer = list.emplace_back(OrderedJson::object());
       if (files.separate) buffer["uri"] = uri(files.data);
       buffer["byteLength"] = bytes;
     }
     if (packed_ && layout_.bytes > 0) {
-      Json& buffer = list.emplace_back(Json::object());
+      OrderedJson& buffer = list.emplace_back(OrderedJson::object());
       if (!files.fallback.empty()) buffer["uri"] = uri(files.fallback);
       buffer["byteLength"] = layout_.bytes;
       buffer["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
@@ -150,10 +145,10 @@ class Document {
     return sum;
   }
 
-  Json view(const MeshGroup& group, std::size_t g, std::size_t s) const {
+  OrderedJson view(const MeshGroup& group, std::size_t g, std::size_t s) const {
     const auto stream = static_cast<Stream>(s);
     const std::uint64_t offset = group.views[s].offset, length = group.views[s].length, size = element_bytes(stream);
-    Json v{{"buffer", packed_ ? 1 : 0}, {"byteOffset", offset}, {"byteLength", length}};
+    OrderedJson v{{"buffer", packed_ ? 1 : 0}, {"byteOffset", offset}, {"byteLength", length}};
     if (!is_of_instances(stream)) {
       if (!is_index(stream)) v["byteStride"] = size;
       v["target"] = is_index(stream) ? kIndexBuffer : kVertexBuffer;
@@ -189,8 +184,8 @@ class Document {
     }
   }
 
-  static Json accessor(const MeshFacts& facts, Stream stream, std::size_t view, std::uint64_t offset) {
-    Json a{{"bufferView", view}};
+  static OrderedJson accessor(const MeshFacts& facts, Stream stream, std::size_t view, std::uint64_t offset) {
+    OrderedJson a{{"bufferView", view}};
     if (offset > 0) a["byteOffset"] = offset;
     const auto type = [&](int component, const char* shape, bool normalized) {
       a["componentType"] = component;
@@ -251,9 +246,9 @@ class Document {
 
   /// `files` names the images; empty: they are in the buffer.
   void materials(const std::vector<std::string>& files) {
-    Json images = Json::array(), list = Json::array();
+    OrderedJson images = OrderedJson::array(), list = OrderedJson::array();
     for (std::size_t i = 0; i < images_.size(); ++i) {
-      Json image{{"name", images_[i].name}, {"mimeType", images_[i].mime_type()}};
+      OrderedJson image{{"name", images_[i].name}, {"mimeType", images_[i].mime_type()}};
       if (files.empty()) {
         image["bufferView"] = views_.size();
         views_.push_back({{"buffer", 0}, {"byteOffset", image_offset_}, {"byteLength", images_[i].bytes.size()}});
@@ -290,11 +285,11 @@ class Document {
     return true;
   }
 
-  Json material(const scene::Material& from, bool clamp) {
+  OrderedJson material(const scene::Material& from, bool clamp) {
     const auto unit = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
-    Json out;
+    OrderedJson out;
     if (!from.name.empty()) out["name"] = from.name;
-    Json& pbr = out["pbrMetallicRoughness"];
+    OrderedJson& pbr = out["pbrMetallicRoughness"];
     const Vec4 factor = glm::clamp(from.base_factor, 0.0f, 1.0f);
     if (factor != Vec4(1.0f)) pbr["baseColorFactor"] = numbers(factor);
     if (const auto t = texture(from.base_colour.get(), colour_use(from), clamp)) pbr["baseColorTexture"]["index"] = *t;
@@ -349,18 +344,18 @@ class Document {
   std::size_t mesh_of(const MeshKey& key, const std::string& name) {
     const auto [it, fresh] = gltf_mesh_index_.try_emplace(key, meshes_.size());
     if (!fresh) return it->second;
-    Json primitives = Json::array();
+    OrderedJson primitives = OrderedJson::array();
     for (const auto& [m, material] : key) primitives.push_back(primitive(m, material));
-    Json mesh;
+    OrderedJson mesh;
     if (!name.empty()) mesh["name"] = name;
     mesh["primitives"] = std::move(primitives);
     meshes_.push_back(std::move(mesh));
     return it->second;
   }
 
-  Json primitive(std::size_t m, int material) const {
+  OrderedJson primitive(std::size_t m, int material) const {
     const MeshFacts& facts = stock_.meshes[m];
-    Json attributes;
+    OrderedJson attributes;
     const auto add_stream = [&](const char* name, Stream stream) {
       if (facts.has(stream)) attributes[name] = accessor_of_[m][static_cast<std::size_t>(stream)];
     };
@@ -386,7 +381,7 @@ class Document {
   }
 
   // Puts a mesh on a node that stands at `translation`, with what unpacks its positions.
-  void draw(Json& node, const MeshKey& key, const std::string& name, Vec3 translation) {
+  void draw(OrderedJson& node, const MeshKey& key, const std::string& name, Vec3 translation) {
     node["mesh"] = mesh_of(key, name);
     const MeshFacts& facts = stock_.meshes[key.front().first];
     if (facts.quantized) translation += facts.centre;
@@ -394,17 +389,17 @@ class Document {
     if (facts.quantized) node["scale"] = numbers(Vec3(facts.step));
   }
 
-  std::size_t add_node(Json node) {
-    nodes_.push_back(node.is_null() ? Json::object() : std::move(node));
+  std::size_t add_node(OrderedJson node) {
+    nodes_.push_back(node.is_null() ? OrderedJson::object() : std::move(node));
     return nodes_.size() - 1;
   }
 
   // One level of a node at `translation`. Leaves that are instanced hang below it, beside a node for the rest.
-  Json level(const std::vector<scene::Part>& parts, const std::string& name, const Vec3& translation) {
-    Json node;
+  OrderedJson level(const std::vector<scene::Part>& parts, const std::string& name, const Vec3& translation) {
+    OrderedJson node;
     if (!name.empty()) node["name"] = name;
     const MeshKey key = baked(parts);
-    Json children = Json::array();
+    OrderedJson children = OrderedJson::array();
     for (const scene::Part& part : parts) {
       if (!drawable(part) || !stock_.instanced(part)) continue;
       for (const GltfStock::Card& card : stock_.cards.at(part.mesh.get()))
@@ -418,7 +413,7 @@ class Document {
       return node;
     }
     if (!key.empty()) {
-      Json rest;
+      OrderedJson rest;
       draw(rest, key, name, Vec3(0.0f));
       children.insert(children.begin(), add_node(std::move(rest)));
     }
@@ -427,11 +422,11 @@ class Document {
     return node;
   }
 
-  Json instances(const GltfStock::Card& card, int material) {
-    Json node;
+  OrderedJson instances(const GltfStock::Card& card, int material) {
+    OrderedJson node;
     node["mesh"] = mesh_of({{card.mesh, material}},
                            model_.materials[stock_.materials[static_cast<std::size_t>(material)]].name + "-card");
-    Json attributes;
+    OrderedJson attributes;
     const auto add_stream = [&](const char* name, Stream stream) {
       if (stock_.meshes[card.instances].has(stream))
         attributes[name] = accessor_of_[card.instances][static_cast<std::size_t>(stream)];
@@ -446,12 +441,12 @@ class Document {
   }
 
   // A node of the model with the levels that are asked for: as children, or by MSFT_lod.
-  Json with_levels(const scene::Node& from) {
+  OrderedJson with_levels(const scene::Node& from) {
     const auto levels = shown_levels(from, options_);
     const auto numbered = [&](std::size_t k) { return fmt::format("{}_LOD{}", from.name, k); };
     if (levels.size() == 1) return level(from.parts, from.name, from.translation);
     if (options_.lod == LodFiles::nodes) {
-      Json node, children = Json::array();
+      OrderedJson node, children = OrderedJson::array();
       if (!from.name.empty()) node["name"] = from.name;
       if (from.translation != Vec3(0.0f)) node["translation"] = numbers(from.translation);
       for (std::size_t k = 0; k < levels.size(); ++k)
@@ -459,8 +454,8 @@ class Document {
       node["children"] = std::move(children);
       return node;
     }
-    Json node = level(from.parts, from.name, from.translation), ids = Json::array(),
-         coverage = Json::array({shortest(from.coverage)});
+    OrderedJson node = level(from.parts, from.name, from.translation), ids = OrderedJson::array(),
+                coverage = OrderedJson::array({shortest(from.coverage)});
     for (std::size_t k = 1; k < levels.size(); ++k) {
       ids.push_back(add_node(level(*levels[k], numbered(k), from.translation)));
       coverage.push_back(shortest(from.coarser[k - 1].coverage));
@@ -471,17 +466,17 @@ class Document {
   }
 
   void nodes() {
-    Json roots = Json::array(), cameras = Json::array();
+    OrderedJson roots = OrderedJson::array(), cameras = OrderedJson::array();
     for (const scene::Node& node : model_.nodes) {
-      Json out = with_levels(node);
-      if (Json extras = to_json(node.extras); !extras.empty()) {
+      OrderedJson out = with_levels(node);
+      if (OrderedJson extras = to_json(node.extras); !extras.empty()) {
         if (out.contains("extras")) extras.update(out["extras"]);
         out["extras"] = std::move(extras);
       }
       roots.push_back(add_node(std::move(out)));
     }
     for (const scene::Camera& camera : model_.cameras) {
-      Json out;
+      OrderedJson out;
       if (!camera.name.empty()) out["name"] = camera.name;
       out["camera"] = cameras.size();
       if (camera.eye != Vec3(0.0f)) out["translation"] = numbers(camera.eye);
@@ -498,11 +493,11 @@ class Document {
     roots.push_back(add_node({{"name", "sun"},
                               {"rotation", numbers(facing(DVec3(model_.sun.direction())))},
                               {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
-    root_["extensions"]["KHR_lights_punctual"]["lights"] =
-        Json::array({{{"name", "sun"}, {"type", "directional"}, {"intensity", shortest(options_.sun_intensity)}}});
-    Json scene{{"nodes", std::move(roots)}};
-    if (Json extras = to_json(model_.extras); !extras.empty()) scene["extras"] = std::move(extras);
-    root_["scenes"] = Json::array({std::move(scene)});
+    root_["extensions"]["KHR_lights_punctual"]["lights"] = OrderedJson::array(
+        {{{"name", "sun"}, {"type", "directional"}, {"intensity", shortest(options_.sun_intensity)}}});
+    OrderedJson scene{{"nodes", std::move(roots)}};
+    if (OrderedJson extras = to_json(model_.extras); !extras.empty()) scene["extras"] = std::move(extras);
+    root_["scenes"] = OrderedJson::array({std::move(scene)});
     add("nodes", nodes_);
     add("meshes", meshes_);
     add("cameras", cameras);
@@ -517,8 +512,8 @@ class Document {
   const GltfOptions& options_;
   std::uint64_t image_offset_ = 0;  ///< of the next image of a .glb in the buffer
 
-  Json root_, views_ = Json::array(), accessors_ = Json::array(), textures_ = Json::array(), samplers_ = Json::array(),
-              meshes_ = Json::array(), nodes_ = Json::array();
+  OrderedJson root_, views_ = OrderedJson::array(), accessors_ = OrderedJson::array(), textures_ = OrderedJson::array(),
+                     samplers_ = OrderedJson::array(), meshes_ = OrderedJson::array(), nodes_ = OrderedJson::array();
   std::vector<std::array<int, kStreams>> accessor_of_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> texture_index_;
   std::optional<std::size_t> sampler_index_[2];

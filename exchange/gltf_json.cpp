@@ -9,13 +9,13 @@
 #include <memory>
 #include <string_view>
 
+#include "exchange/gltf_format.h"
+
 namespace bosquet::exchange {
 
 using Json = nlohmann::json;
 
 namespace {
-
-constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
 
 struct JsonText {
   std::string text;

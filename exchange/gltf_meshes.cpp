@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
+#include "exchange/gltf_format.h"
 #include "exchange/mesh_order.h"
 #include "exchange/tangents.h"
 
@@ -21,13 +22,7 @@ static_assert(sizeof(Vec3) == 12 && sizeof(Vec2) == 8 && sizeof(Rgba8) == 4);
 constexpr std::uint64_t kGroupBytes = std::uint64_t{8} << 20;
 constexpr std::uint64_t kShortIndexVertices = 65'535;  // index 65,535 would be the primitive restart value
 
-constexpr float kMostQuanta = 32'767.0f;
-
 constexpr std::size_t slot(Stream stream) { return static_cast<std::size_t>(stream); }
-constexpr std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) & ~std::uint64_t{3}; }
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
 Error broken(std::string what) { return cannot_finish(std::move(what)); }
 

@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "exchange/gltf_format.h"
 #include "exchange/gltf_images.h"
 
 namespace bosquet::exchange {
 namespace {
 
-constexpr float kMostQuanta = 32'767.0f;
 // A millimetre is enough for wood and leaves, if the mesh is not small itself.
 constexpr float kPackedStep_m = 1e-3f, kLeastPackedQuanta = 2000.0f;
 

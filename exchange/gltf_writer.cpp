@@ -10,18 +10,13 @@
 #include "exchange/file_output.h"
 #include "exchange/gltf_compress.h"
 #include "exchange/gltf_document.h"
+#include "exchange/gltf_format.h"
 #include "exchange/gltf_images.h"
 #include "exchange/gltf_meshes.h"
 #include "exchange/gltf_stock.h"
 
 namespace bosquet::exchange {
 namespace {
-
-constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbVersion = 2, kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;
-
-constexpr std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) & ~std::uint64_t{3}; }
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 Result<void> check_numbers(const scene::Model& model) {
   for (const scene::Node& node : model.nodes)

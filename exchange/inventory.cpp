@@ -20,7 +20,7 @@
 namespace bosquet::exchange {
 namespace {
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxTableBytes = std::uint64_t{1} << 30;
 
 // No tree is larger; what is beyond is a slip or another unit.
 constexpr double kTallest = 130, kThickest = 15, kWidest = 100, kOldest = 5000;  // metres, years
@@ -351,7 +351,7 @@ Result<Inventory> read_inventory(const std::filesystem::path& path, const Invent
     if (!table) return table.error();
     return read(**table, path.string(), options);
   }
-  const auto bytes = read_file(path, kMaxFileBytes);
+  const auto bytes = read_file(path, kMaxTableBytes);
   if (!bytes) return bytes.error();
   return parse_inventory({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(), options);
 }

@@ -39,9 +39,9 @@ std::string dxf_text(const std::string& text) {
   return out;
 }
 
-class Writer {
+class DxfText {
  public:
-  explicit Writer(const PlanDrawing& plan) : plan_(plan) {}
+  explicit DxfText(const PlanDrawing& plan) : plan_(plan) {}
 
   std::string text() {
     header();
@@ -151,7 +151,7 @@ class Writer {
 }  // namespace
 
 Result<std::uint64_t> write_plan_dxf(const PlanDrawing& plan, const std::filesystem::path& target) {
-  return write_file(target, Writer(plan).text());
+  return write_file(target, DxfText(plan).text());
 }
 
 }  // namespace bosquet::exchange

@@ -51,9 +51,9 @@ std::string base64(const Bytes& bytes) {
   return out;
 }
 
-class Writer {
+class SvgText {
  public:
-  explicit Writer(const PlanDrawing& plan) : plan_(plan) {}
+  explicit SvgText(const PlanDrawing& plan) : plan_(plan) {}
 
   std::string text() {
     const DVec2 mm = plan_.paper_mm;
@@ -141,7 +141,7 @@ class Writer {
 }  // namespace
 
 Result<std::uint64_t> write_plan_svg(const PlanDrawing& plan, const std::filesystem::path& target) {
-  return write_file(target, Writer(plan).text());
+  return write_file(target, SvgText(plan).text());
 }
 
 }  // namespace bosquet::exchange

@@ -148,9 +148,9 @@ std::string obj_text(const TriangleMesh& mesh) {
   return text;
 }
 
-class Writer {
+class RecipeText {
  public:
-  Writer(const scene::Document& document, const path& target)
+  RecipeText(const scene::Document& document, const path& target)
       : d_(document),
         target_(target),
         folder_(target.parent_path() / (target.stem().string() + "-files")),
@@ -161,7 +161,7 @@ class Writer {
     std::filesystem::create_directories(folder_, ec);
     if (ec) return Error{fmt::format("{}: cannot be made ({})", folder_.string(), ec.message())};
     for (const auto step :
-         {&Writer::site, &Writer::species, &Writer::trees, &Writer::obstacles, &Writer::heroes, &Writer::settings})
+         {&RecipeText::site, &RecipeText::species, &RecipeText::trees, &RecipeText::obstacles, &RecipeText::heroes, &RecipeText::settings})
       if (auto done = (this->*step)(); !done) return done.error();
     if (auto done = put(target_, text_); !done) return done.error();
     return std::move(out_);
@@ -337,7 +337,7 @@ class Writer {
 }  // namespace
 
 Result<WrittenRecipe> write_recipe(const scene::Document& document, const path& target) {
-  return Writer(document, target).write();
+  return RecipeText(document, target).write();
 }
 
 Result<std::vector<scene::Tree>> read_exact_trees(const path& file,

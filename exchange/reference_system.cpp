@@ -9,13 +9,10 @@
 #include <limits>
 #include <vector>
 
+#include "exchange/gdal_scope.h"
+
 namespace bosquet::exchange {
 namespace {
-
-struct Quiet {
-  Quiet() { CPLErrorReset(), CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~Quiet() { CPLPopErrorHandler(); }
-};
 
 OGRSpatialReference system_of(const std::string& wkt) {
   OGRSpatialReference system;
@@ -38,7 +35,7 @@ std::string wkt_of(const OGRSpatialReference& system) {
 }  // namespace
 
 Result<std::string> reference_system(const std::string& definition) {
-  const Quiet quiet;
+  const GdalMessages quiet;
   OGRSpatialReference system;
   // Limited, so that a definition is never taken for the name of a file or an address.
   const OGRErr failed =
@@ -50,7 +47,7 @@ Result<std::string> reference_system(const std::string& definition) {
 }
 
 SystemFacts system_facts(const std::string& wkt) {
-  const Quiet quiet;
+  const GdalMessages quiet;
   const OGRSpatialReference system = system_of(wkt);
   SystemFacts facts;
   if (const char* name = system.GetName()) facts.name = name;
@@ -62,7 +59,7 @@ SystemFacts system_facts(const std::string& wkt) {
 }
 
 std::string short_definition(const std::string& wkt) {
-  const Quiet quiet;
+  const GdalMessages quiet;
   const OGRSpatialReference system = system_of(wkt);
   const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
   const auto same = [&](const std::string& definition) {
@@ -91,7 +88,7 @@ std::string plane_at(DVec2 place) {
 
 bool same_system(const std::string& wkt, const std::string& other_wkt) {
   if (wkt == other_wkt) return true;
-  const Quiet quiet;
+  const GdalMessages quiet;
   const OGRSpatialReference a = system_of(wkt), b = system_of(other_wkt);
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", nullptr};
   return a.IsSame(&b, options);
@@ -109,7 +106,7 @@ Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
 Reprojection::~Reprojection() = default;
 
 Result<Reprojection> Reprojection::make(const std::string& from, const std::string& to) {
-  const Quiet quiet;
+  const GdalMessages quiet;
   auto impl = std::make_unique<Impl>();
   impl->from = system_of(from), impl->to = system_of(to);
   impl->way.reset(OGRCreateCoordinateTransformation(&impl->from, &impl->to));
@@ -120,7 +117,7 @@ Result<Reprojection> Reprojection::make(const std::string& from, const std::stri
 }
 
 void Reprojection::apply(std::span<DVec2> points) const {
-  const Quiet quiet;
+  const GdalMessages quiet;
   constexpr std::size_t kChunk = 4096;
   std::vector<double> x, y;
   std::vector<int> good;

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "exchange/gdal_scope.h"
 #include "exchange/site_frame.h"
 
 namespace bosquet::exchange {
@@ -21,17 +22,6 @@ constexpr std::size_t kMostPoints = 20'000'000;
 // So far away metres are lost in a float.
 constexpr double kFarthest_m = 1e6;
 constexpr std::size_t kListed = 3;  // names in a note
-
-struct Quiet {
-  Quiet() { CPLErrorReset(), CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~Quiet() { CPLPopErrorHandler(); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  static std::string last() {
-    const std::string text = CPLGetLastErrorMsg();
-    return text.empty() ? "" : ": " + text;
-  }
-};
 
 // What a feature holds, in the file's coordinates: the points of its rings one after another.
 struct Outline {
@@ -184,7 +174,7 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<Polygon> untangled(const Polygon& polygon) {
-  const Quiet quiet;
+  const GdalMessages quiet;
   Rings rings{{polygon.ring.begin(), polygon.ring.end()}};
   for (const auto& hole : polygon.holes) rings.emplace_back(hole.begin(), hole.end());
   bool tangled = false;
@@ -203,11 +193,11 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
   const std::string file = path.string();
   std::error_code ec;
   if (!std::filesystem::exists(path, ec)) return Error{fmt::format("there is no file {}", file)};
-  const Quiet quiet;
+  const GdalMessages quiet;
   const CPLConfigOptionSetter closed("DXF_CLOSED_LINE_AS_POLYGON", "TRUE", false);
   const std::unique_ptr<GDALDataset> data(
       GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
-  if (!data) return Error{fmt::format("cannot read outlines from {}{}", file, Quiet::last())};
+  if (!data) return Error{fmt::format("cannot read outlines from {}{}", file, GdalMessages::last())};
   const bool geojson = data->GetDriverName() == std::string("GeoJSON");
 
   Shapes out;
@@ -221,7 +211,7 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
     found_layer = true;
     if (!options.where.empty() && layer->SetAttributeFilter(options.where.c_str()) != OGRERR_NONE)
       return Error{fmt::format("{}: the condition \"{}\" cannot be asked of layer {}{}", file, options.where,
-                               layer->GetName(), Quiet::last())};
+                               layer->GetName(), GdalMessages::last())};
     CPLErrorReset();
     Collector read(options);
     for (const auto& feature : *layer) {
@@ -236,9 +226,9 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
     // Some formats look at the condition only when they are read.
     if (CPLGetLastErrorType() >= CE_Failure && number == 0 && !options.where.empty())
       return Error{fmt::format("{}: the condition \"{}\" cannot be asked of layer {}{}", file, options.where,
-                               layer->GetName(), Quiet::last())};
+                               layer->GetName(), GdalMessages::last())};
     if (CPLGetLastErrorType() >= CE_Failure)
-      return Error{fmt::format("{} is damaged after feature {}{}", file, number, Quiet::last())};
+      return Error{fmt::format("{} is damaged after feature {}{}", file, number, GdalMessages::last())};
     others += read.others;
     if (read.outlines.empty()) continue;
 

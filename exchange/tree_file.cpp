@@ -12,7 +12,7 @@
 namespace bosquet::exchange {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kFormat = 1, kMostDepth = 8;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
@@ -21,7 +21,7 @@ constexpr double kMostSize_m = 1000.0, kMostRadius_m = 5.0, kMostNumber = 1e9;
 
 // Described parameters as JSON.
 struct Writer {
-  Json out = Json::object();
+  OrderedJson out = OrderedJson::object();
   void operator()(const Real& r, float v) { out[std::string(r.name)] = v; }
   void operator()(const Real& r, double v) { out[std::string(r.name)] = v; }
   void operator()(const Whole& w, int v) { out[std::string(w.name)] = v; }
@@ -35,7 +35,7 @@ struct Writer {
   }
   template <class Item>
   void operator()(const Tables& t, const std::vector<Item>& items) {
-    Json all = Json::array();
+    OrderedJson all = OrderedJson::array();
     for (const Item& item : items) {
       Writer one;
       describe(item, one);
@@ -60,9 +60,10 @@ class Reader {
   Result<SavedTree> read(const std::vector<std::byte>& bytes) {
     bool deep = false;
     const auto* text = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(
+    const OrderedJson json = OrderedJson::parse(
         text, text + bytes.size(),
-        [&](int depth, Json::parse_event_t, Json&) { return !(deep = deep || depth > kMostDepth); }, false);
+        [&](int depth, OrderedJson::parse_event_t, OrderedJson&) { return !(deep = deep || depth > kMostDepth); },
+        false);
     if (deep) return wrong("it is nested deeper than a tree is");
     if (!json.is_object() || !json.contains("bosquet_tree")) return wrong("it is no tree that bosquet saved");
     if (json["bosquet_tree"] != kFormat) return wrong("it is of a format that this version does not know");
@@ -81,13 +82,13 @@ class Reader {
   }
 
  private:
-  static bool whole(const Json& json, const char* key, std::uint64_t& out) {
+  static bool whole(const OrderedJson& json, const char* key, std::uint64_t& out) {
     if (!json.contains(key) || !json[key].is_string()) return false;
     const std::string text = json[key].get<std::string>();
     const auto [end, ok] = std::from_chars(text.data(), text.data() + text.size(), out);
     return ok == std::errc() && end == text.data() + text.size();
   }
-  static bool real(const Json& json, const char* key, double low, double high, float& out) {
+  static bool real(const OrderedJson& json, const char* key, double low, double high, float& out) {
     if (!json.contains(key) || !json[key].is_number()) return false;
     const double v = json[key].get<double>();
     if (!(v >= low && v <= high)) return false;
@@ -95,16 +96,16 @@ class Reader {
     return true;
   }
 
-  Result<void> skeleton(const Json& json, growth::Skeleton& s) {
+  Result<void> skeleton(const OrderedJson& json, growth::Skeleton& s) {
     if (!json.contains("distal") || !json["distal"].is_array()) return wrong("skeleton.distal is missing");
-    const Json& distal = json["distal"];
+    const OrderedJson& distal = json["distal"];
     const std::size_t n = distal.size() / 3;
     if (n == 0 || distal.size() % 3 != 0 || n > kMostInternodes)
       return wrong("skeleton.distal must hold x, y, z in turn");
     for (std::size_t i = 0; i < n; ++i) {
       Vec3 p;
       for (int a = 0; a < 3; ++a) {
-        const Json& v = distal[3 * i + static_cast<std::size_t>(a)];
+        const OrderedJson& v = distal[3 * i + static_cast<std::size_t>(a)];
         if (!v.is_number() || !(std::fabs(v.get<double>()) <= kMostSize_m)) return wrong(element("distal", i));
         p[a] = v.get<float>();
       }
@@ -121,7 +122,7 @@ class Reader {
         return;
       }
       for (std::size_t i = 0; i < n; ++i) {
-        const Json& v = json[key][i];
+        const OrderedJson& v = json[key][i];
         const double number = v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN();
         const bool fits = std::is_floating_point_v<Value>
                               ? std::fabs(number) <= kMostNumber
@@ -162,7 +163,7 @@ class Reader {
 
 Result<std::uint64_t> write_tree(const SavedTree& tree, const growth::Parameters& growth,
                                  const std::filesystem::path& path) {
-  Json json;
+  OrderedJson json;
   json["bosquet_tree"] = kFormat;
   json["species"] = tree.species;
   json["seed"] = std::to_string(tree.seed);
@@ -173,13 +174,13 @@ Result<std::uint64_t> write_tree(const SavedTree& tree, const growth::Parameters
   json["growth"] = std::move(parameters.out);
 
   const growth::Skeleton& s = tree.skeleton;
-  Json skeleton;
+  OrderedJson skeleton;
   skeleton["seasons"] = s.seasons;
   skeleton["internode_length_m"] = s.internode_length_m;
   skeleton["detail"] = s.detail;
   skeleton["tip_diameter_m"] = s.tip_diameter_m;
   skeleton["pipe_exponent"] = s.pipe_exponent;
-  Json distal = Json::array();
+  OrderedJson distal = OrderedJson::array();
   for (const Vec3& p : s.distal)
     for (int a = 0; a < 3; ++a) distal.push_back(p[a]);
   skeleton["distal"] = std::move(distal);

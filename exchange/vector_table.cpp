@@ -14,19 +14,11 @@
 #include <fstream>
 #include <mutex>
 
+#include "exchange/gdal_scope.h"
 #include "exchange/reference_system.h"
 
 namespace bosquet::exchange {
 namespace {
-
-struct Quiet {
-  Quiet() { CPLErrorReset(), CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~Quiet() { CPLPopErrorHandler(); }
-  static std::string last() {
-    const std::string text = CPLGetLastErrorMsg();
-    return text.empty() ? "" : ": " + text;
-  }
-};
 
 // Inserted blocks stay points with a name instead of being drawn out.
 struct BlocksAsPoints {
@@ -87,22 +79,18 @@ std::optional<Circle> circle_of(const OGRLineString& line) {
   return Circle{centre, radius};
 }
 
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
 class VectorTable : public TreeTable {
  public:
   Result<void> open(const std::filesystem::path& path, const std::string& wanted) {
     static std::once_flag once;
     std::call_once(once, [] { GDALAllRegister(); });
-    const Quiet quiet;
+    const GdalMessages quiet;
     const BlocksAsPoints points;
     name_ = path.string();
     std::error_code ec;
     if (!std::filesystem::exists(path, ec)) return Error{fmt::format("there is no file {}", name_)};
     data_.reset(GDALDataset::Open(name_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
-    if (!data_) return Error{fmt::format("cannot read trees from {}{}", name_, Quiet::last())};
+    if (!data_) return Error{fmt::format("cannot read trees from {}{}", name_, GdalMessages::last())};
     const std::string driver = data_->GetDriverName() ? data_->GetDriverName() : "";
     drawing_ = driver == "DXF";
     if (drawing_) metres_per_unit = drawing_unit(path);
@@ -150,7 +138,7 @@ class VectorTable : public TreeTable {
   }
 
   bool next(TableRow& row) override {
-    const Quiet quiet;
+    const GdalMessages quiet;
     while (parts_.empty()) {
       if (layer_ == layers_.size()) return false;
       feature_.reset(layers_[layer_]->GetNextFeature());
@@ -297,7 +285,7 @@ class VectorTable : public TreeTable {
   }
 
   std::string name_;
-  std::unique_ptr<GDALDataset, DatasetCloser> data_;
+  Dataset data_;
   std::vector<OGRLayer*> layers_;
   std::vector<std::vector<int>> places_;  ///< of each layer: which column each of its fields is
   std::size_t layer_ = 0;

@@ -16,26 +16,13 @@
 
 #include "core/letters.h"
 #include "exchange/file_output.h"
+#include "exchange/gdal_scope.h"
 #include "exchange/reference_system.h"
 
 namespace bosquet::exchange {
 namespace {
 
 using std::filesystem::path;
-
-struct Quiet {
-  Quiet() { CPLErrorReset(), CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~Quiet() { CPLPopErrorHandler(); }
-  static std::string last() {
-    const std::string text = CPLGetLastErrorMsg();
-    return text.empty() ? "" : ": " + text;
-  }
-};
-
-struct DatasetCloser {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, DatasetCloser>;
 
 // A value of one attribute: text, a whole number, a real one or nothing.
 using Value = nlohmann::json;
@@ -84,7 +71,7 @@ AttributeType type_of(std::string_view name) {
 }
 
 Error refused(const path& file) {
-  return cannot_finish(fmt::format("cannot write {}{}", file.string(), Quiet::last()));
+  return cannot_finish(fmt::format("cannot write {}{}", file.string(), GdalMessages::last()));
 }
 
 constexpr std::size_t kLongestShapefileText = 254;
@@ -174,7 +161,7 @@ Result<WrittenTrees> write_with_gdal(const path& target, std::span<const TreeRec
                                      const scene::Georeference& place, DVec2 site_m, bool shapefile) {
   static std::once_flag once;
   std::call_once(once, [] { GDALAllRegister(); });
-  const Quiet quiet;
+  const GdalMessages quiet;
   const Workshop workshop(target);
   if (workshop.folder().empty())
     return Error{fmt::format("{}: no permission to write in its folder, or there is none", target.string())};

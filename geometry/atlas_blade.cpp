@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "core/scalar.h"
+#include "geometry/shares.h"
 
 namespace bosquet::geometry {
 namespace {
@@ -14,7 +15,6 @@ constexpr float kPalmateCentre = 0.2f;      // where the main veins of a palmate
 constexpr float kLeafletAngle_deg = 58.0f;  // of leaflets to their stalk, and of the stalk's end leaflet 0
 constexpr float kRachis = 0.006f;           // half the thickness of a compound leaf's stalk, in leaf lengths
 
-float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
 float fraction(float x) { return x - static_cast<float>(static_cast<int>(x)); }  // x >= 0
 
 // A tooth that leans to the tip: rises over most of its length, falls at once.

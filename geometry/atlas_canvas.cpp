@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "geometry/leaf_atlas.h"
+#include "geometry/shares.h"
 
 namespace bosquet::geometry {
 namespace {
-
-float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
 
 // Light from the upper left, as painters have it: what the albedo keeps of a surface's slope.
 float painted_light(Vec2 slope) {

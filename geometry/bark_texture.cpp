@@ -9,13 +9,12 @@
 #include "core/random.h"
 #include "core/scalar.h"
 #include "geometry/bark_skins.h"
+#include "geometry/shares.h"
 #include "geometry/texture_colour.h"
 #include "geometry/texture_relief.h"
 
 namespace bosquet::geometry {
 namespace {
-
-float clamp01(float x) { return std::clamp(x, 0.0f, 1.0f); }
 
 // Ridges, between two extremes. Upright: tall jittered cells are the ridges and their borders the furrows; borders that
 // cross the grain are shallow, so that ridges run on and join. Criss-cross: two families of bent ridges that slant to

@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "core/scalar.h"
+#include "geometry/shares.h"
 
 namespace bosquet::geometry {
 namespace {
@@ -94,8 +95,6 @@ const SinCos* circle(int sides) {
   return table[static_cast<std::size_t>(sides)].data();
 }
 
-std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
-
 struct Frame {
   Vec3 normal, binormal;
 };
@@ -179,7 +178,7 @@ class Mesher {
       // In the crotch, where the branch leaves its parent, it is dark.
       const float shade = occlusion(s.light) * (1.0f - kCrotchShade * s.crotch);
       const Vec3 tint = tints_.at(2.0f * s.wood, s.centre.y) * shade;
-      const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
+      const Rgba8 colour{unorm8(tint.x), unorm8(tint.y), unorm8(tint.z), 255};
 
       v += 2.0f * (s.along - before.along) / (tile * (scale(s.wood) + scale(before.wood)));
       const Vec3 widening = run > kLeastStep_m ? (after.saddle - before.saddle) / run : Vec3(0.0f);
@@ -198,7 +197,7 @@ class Mesher {
     mesh.normals.push_back(tip.tangent);
     v += (tip.along + beyond - path[last.sample].along) / (tile * scale(path[last.sample].wood));
     mesh.uvs.push_back({u0 + kBarkTurn * v + 0.5f * repeats, v0 - v});
-    mesh.colours.push_back({byte(tint.x), byte(tint.y), byte(tint.z), 255});
+    mesh.colours.push_back({unorm8(tint.x), unorm8(tint.y), unorm8(tint.z), 255});
     const auto apex = static_cast<std::uint32_t>(mesh.positions.size()) - 1;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(last.sides); ++i)
       mesh.indices.insert(mesh.indices.end(), {below + i, below + i + 1, apex});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSamples = 4;       // of a texel's side
 constexpr float kMargin = 0.04f;  // around the tree in its picture, so that mipmaps do not mix neighbours
-constexpr int kMeasured = 96;     // samples across, to measure silhouettes
+constexpr int kSilhouette = 96;   // samples across, to measure silhouettes
 constexpr int kDirections = 4;    // from which they are measured
 constexpr float kFaint = 0.08f;   // texels covered less are noise of single samples
 
@@ -79,7 +79,7 @@ float silhouette(std::span<const RasterSurface> surfaces, const Box3& box) {
   float area = 0.0f;
   for (int k = 0; k < kDirections; ++k) {
     const float azimuth = 0.5f * kPi * (static_cast<float>(k) + 0.5f) / static_cast<float>(kDirections);
-    area += appearance(surfaces, RasterView::level(azimuth), box, kMeasured).area;
+    area += appearance(surfaces, RasterView::level(azimuth), box, kSilhouette).area;
   }
   return area / static_cast<float>(kDirections);
 }

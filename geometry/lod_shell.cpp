@@ -8,11 +8,13 @@
 #include "core/random.h"
 #include "core/scalar.h"
 #include "geometry/leaf_atlas.h"
+#include "geometry/shares.h"
+#include "geometry/vec_lanes.h"
 
 namespace bosquet::geometry {
 namespace {
 
-constexpr int kMeasured = 64;  // samples across, to measure silhouettes
+constexpr int kShellSilhouette = 64;  // samples across, to measure silhouettes
 constexpr float kFirstOverlap = 1.5f;
 constexpr float kOwnWay = 0.7f;
 constexpr int kRounds = 8;  // of measuring and mending
@@ -21,11 +23,6 @@ struct Patch {
   Vec3 centre{0.0f}, normal{0.0f}, colour{0.0f};
   float weight = 0.0f;
 };
-
-Vec3 unit(const Vec3& v, const Vec3& otherwise) {
-  const float l2 = glm::dot(v, v);
-  return l2 > 1e-10f ? v / std::sqrt(l2) : otherwise;
-}
 
 // Direction number k of n, evenly spread.
 Vec3 direction(std::size_t k, std::size_t n) {
@@ -67,8 +64,6 @@ std::vector<Patch> divide(const TriangleMesh& foliage, const Box3& box, std::siz
   return patches;
 }
 
-std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
-
 TriangleMesh mesh_of(const std::vector<Patch>& patches, float side, float lift, const Vec3& tint, std::uint64_t key) {
   TriangleMesh mesh;
   RandomStream random(1, key, Purpose::foliage);
@@ -89,7 +84,7 @@ TriangleMesh mesh_of(const std::vector<Patch>& patches, float side, float lift, 
       mesh.positions.push_back(p.centre + x * right + y * up);
       mesh.normals.push_back(unit(p.normal + 0.35f * (x * right + y * up) / own, p.normal));
       mesh.uvs.push_back({k & 1 ? cell.u1 : cell.u0, k & 2 ? cell.v0 : cell.v1});
-      mesh.colours.push_back({byte(colour.x), byte(colour.y), byte(colour.z), 255});
+      mesh.colours.push_back({unorm8(colour.x), unorm8(colour.y), unorm8(colour.z), 255});
     }
     for (std::uint32_t k : {0u, 1u, 3u, 0u, 3u, 2u}) mesh.indices.push_back(base + k);
   }
@@ -106,10 +101,11 @@ Seen look_at(const TriangleMesh& mesh, const RasterSkin& skin, const Box3& box) 
   const RasterSurface surface[] = {{&mesh, &skin}};
   Seen seen;
   for (int k = 0; k < 3; ++k) {
-    const Appearance a = appearance(surface, RasterView::level(kPi * static_cast<float>(k) / 3.0f), box, kMeasured);
+    const Appearance a =
+        appearance(surface, RasterView::level(kPi * static_cast<float>(k) / 3.0f), box, kShellSilhouette);
     seen.level += a.area / 3.0f, seen.colour += a.area * a.colour;
   }
-  const Appearance a = appearance(surface, RasterView::from_above(), box, kMeasured);
+  const Appearance a = appearance(surface, RasterView::from_above(), box, kShellSilhouette);
   seen.above = a.area, seen.colour += a.area * a.colour;
   const float all = 3.0f * seen.level + seen.above;
   if (all > 0.0f) seen.colour = seen.colour / all;

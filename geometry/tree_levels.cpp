@@ -10,7 +10,7 @@ namespace bosquet::geometry {
 namespace {
 
 // What the wood of a shell gets.
-constexpr double kWoodShare = 0.25;
+constexpr double kWoodOfLevel = 0.25;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ TreeMesh source_mesh(const TreeInput& tree) {
 
 TreeMesh build_shell(const TreeInput& tree, const TreeMesh& source, const TreeSkins& skins) {
   const std::size_t budget = tree.options.max_triangles;
-  const auto share = static_cast<std::size_t>(kWoodShare * static_cast<double>(budget));
+  const auto share = static_cast<std::size_t>(kWoodOfLevel * static_cast<double>(budget));
   const auto stands = standing(*tree.skeleton, tree.options.season_of_growth);
   const BranchCurves curves =
       branch_curves(*tree.skeleton, tree.radius, thickest_paths(*tree.skeleton, tree.radius, stands));

@@ -8,7 +8,7 @@
 namespace bosquet::crowns {
 namespace {
 
-constexpr double kStep = 0.5, kSplit = 0.75, kPatience = 20.0;  // cells
+constexpr double kFrontStep = 0.5, kSplit = 0.75, kPatience = 20.0;  // cells
 
 struct Point {
   DVec2 at{0.0};
@@ -25,7 +25,7 @@ class Division {
 
   std::vector<std::int32_t> run() {
     std::size_t left = owner_.size() - claimed_;
-    for (int idle = 0; left > 0 && idle * kStep < kPatience; ++idle) {
+    for (int idle = 0; left > 0 && idle * kFrontStep < kPatience; ++idle) {
       for (std::size_t t = 0; t < trees_.size(); ++t) advance(t);
       if (owner_.size() - claimed_ < left) idle = 0;
       left = owner_.size() - claimed_;
@@ -62,7 +62,7 @@ class Division {
 
   void advance(std::size_t t) {
     std::vector<Point>& points = outlines_[t];
-    const double step = kStep * trees_[t].speed / fastest_;
+    const double step = kFrontStep * trees_[t].speed / fastest_;
 
     // Grow: outward is to the right of the counter-clockwise way from one neighbour to the other.
     const std::vector<Point> old = points;

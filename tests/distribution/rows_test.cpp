@@ -9,7 +9,7 @@
 namespace bosquet::distribution {
 namespace {
 
-Planting planting() {
+Planting clearing() {
   const auto site = terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice({100, 100})));
   return *Planting::make(terrain::exclude_path(site, std::vector<Vec2>{{50, 0}, {50, 100}}, 5), {{"lime", 0.5f, {}}},
                          {});
@@ -82,7 +82,7 @@ TEST(Rows, PatternsOfAbsurdNumberAreRefused) {
 }
 
 TEST(Rows, PlacesOnAPathOffTheSiteOrOnATrunkAreLeftOutAndReported) {
-  Planting p = planting();
+  Planting p = clearing();
   const Sowing what{.seed = 1, .block = 1, .mix = {{0}}};
   const std::vector<Vec2> places{{10, 10}, {50, 10}, {120, 10}, {10.1f, 10}, {20, 10}};
   const Planted planted = plant_at(p, what, places);
@@ -96,7 +96,7 @@ TEST(Rows, PlacesOnAPathOffTheSiteOrOnATrunkAreLeftOutAndReported) {
 }
 
 TEST(Rows, JitterMovesEachTreeWithinItsRadiusAndLeavesOutNoNumber) {
-  Planting p = planting(), q = planting();
+  Planting p = clearing(), q = clearing();
   const Sowing what{.seed = 1, .block = 1, .mix = {{0}}};
   std::vector<Vec2> places;
   for (int n = 0; n < 40; ++n)
@@ -115,7 +115,7 @@ TEST(Rows, JitterMovesEachTreeWithinItsRadiusAndLeavesOutNoNumber) {
 }
 
 TEST(Rows, OneTreeIsPlantedWhereSomebodyPointsOrTheReasonIsGiven) {
-  Planting p = planting();
+  Planting p = clearing();
   EXPECT_EQ(plant_one(p, 1, 0, {10, 10}, 1.0f), Refusal::none);
   EXPECT_EQ(plant_one(p, 2, 0, {10.3f, 10}, 1.0f), Refusal::too_near);
   EXPECT_EQ(plant_one(p, 3, 0, {10.6f, 10}, 1.0f), Refusal::none);

@@ -17,16 +17,16 @@ const std::vector<Species> kSpecies{{"oak", 0.5f, {.min_spacing_m = 0}}, {"birch
 const std::vector<Stature> kStatures{{6.0f, 0.02f, 1.3f}, {3.0f, 0.05f, 1.5f}};
 const Sowing kMix{.seed = 1, .block = 5, .first_index = 0, .mix = {{0, 1}, {1, 1}}};
 
-Planting planting(Vec2 size = {100, 100}) {
+Planting bare_ground(Vec2 size = {100, 100}) {
   const auto site = terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice(size)));
   return *Planting::make(site, kSpecies, {});
 }
 
-Box2 whole(const Planting& p) { return {Vec2{0}, p.terrain().size_m()}; }
+Box2 whole_site(const Planting& p) { return {Vec2{0}, p.terrain().size_m()}; }
 
 Thinned stand(ThinningRules rules, const Sowing& what = kMix) {
-  Planting p = planting();
-  return fill_by_thinning(p, what, whole(p), rules, kStatures);
+  Planting p = bare_ground();
+  return fill_by_thinning(p, what, whole_site(p), rules, kStatures);
 }
 
 float radius(const StandingTree& tree, const ThinningRules& rules) {
@@ -116,7 +116,7 @@ TEST(Thinning, AnyNumberOfThreadsGivesTheSameTrees) {
 
 TEST(Thinning, AnotherAreaOrMoreSeedlingsLaterLeaveFarTreesAsTheyAre) {
   const ThinningRules rules{.years = 50};
-  Planting p = planting(), q = planting();
+  Planting p = bare_ground(), q = bare_ground();
   const Polygon all{{{0, 0}, {100, 0}, {100, 100}, {0, 100}}, {}};
   Polygon bitten = all;
   bitten.holes = {{{5, 5}, {30, 5}, {30, 30}, {5, 30}}};
@@ -145,7 +145,7 @@ TEST(Thinning, NothingGrowsOnPathsInWaterOrIntoTreesThatStoodBefore) {
   const StandingTree old = standing_tree(77, 0, kSpecies[0], {60, 80}, 1.2f);
   p.add(old);
   const ThinningRules rules{.years = 40};
-  const Thinned left = fill_by_thinning(p, kMix, whole(p), rules, kStatures);
+  const Thinned left = fill_by_thinning(p, kMix, whole_site(p), rules, kStatures);
   ASSERT_GT(left.trees.size(), 50u);
   EXPECT_EQ(p.trees().size(), left.trees.size() + 1);
   for (const StandingTree& tree : left.trees) {
@@ -159,20 +159,20 @@ TEST(Thinning, SeedlingsAreAsManyAsAskedForAndThinnedByTheDensityMask) {
   terrain::Terrain site = terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice({100, 100})));
   const ThinningRules rules{.seedlings_per_ha = 10'000, .years = 1};
   Planting p = *Planting::make(site, kSpecies, {});
-  EXPECT_EQ(fill_by_thinning(p, kMix, whole(p), rules, kStatures).seedlings, 10'000u);
+  EXPECT_EQ(fill_by_thinning(p, kMix, whole_site(p), rules, kStatures).seedlings, 10'000u);
   site = terrain::apply(site, {.kind = terrain::BrushKind::density,
                                .points = {{20, -50}, {20, 150}},
                                .radius_m = 20,
                                .hardness = 1.0f,
                                .density = 0.25f});
   Planting q = *Planting::make(site, kSpecies, {});
-  const auto thinned = fill_by_thinning(q, kMix, whole(q), rules, kStatures).seedlings;
+  const auto thinned = fill_by_thinning(q, kMix, whole_site(q), rules, kStatures).seedlings;
   EXPECT_NEAR(static_cast<double>(thinned), 7'000, 4 * std::sqrt(4'000 * 0.25 * 0.75) + 100);  // 40 m of a quarter
 }
 
 TEST(Thinning, NoSeedlingsLeaveNothing) {
   EXPECT_TRUE(stand({.seedlings_per_ha = 0, .regeneration_per_ha = 0}).trees.empty());
-  Planting p = planting();
+  Planting p = bare_ground();
   EXPECT_TRUE(fill_by_thinning(p, kMix, Box2{{200, 200}, {300, 300}}, {}, kStatures).trees.empty());
 }
 

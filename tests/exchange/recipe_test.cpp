@@ -12,10 +12,10 @@
 namespace bosquet::exchange {
 namespace {
 
-constexpr const char* kHead = "[site]\nsize_m = [60, 40]\nseed = 3\n";
+constexpr const char* kSite = "[site]\nsize_m = [60, 40]\nseed = 3\n";
 
 BuiltRecipe build(const std::string& text) {
-  auto recipe = parse_recipe(kHead + text, "test.toml");
+  auto recipe = parse_recipe(kSite + text, "test.toml");
   EXPECT_TRUE(recipe) << recipe.error().message;
   auto built = build_document(*recipe);
   EXPECT_TRUE(built) << built.error().message;
@@ -23,7 +23,7 @@ BuiltRecipe build(const std::string& text) {
 }
 
 std::string mistake_in(const std::string& text) {
-  auto recipe = parse_recipe(kHead + text, "test.toml");
+  auto recipe = parse_recipe(kSite + text, "test.toml");
   return recipe ? "" : recipe.error().message;
 }
 
@@ -32,7 +32,7 @@ TEST(Recipe, ARecipeGivesTheSameTreesEveryTimeAndOthersWithAnotherSeed) {
       "[[planting]]\nspecies = { english_oak = 1, silver_birch = 2 }\ncount = 40\nscale = [0.2, 0.4]\n";
   const auto places = [&](std::optional<std::uint64_t> seed) {
     std::vector<Vec2> at;
-    auto built = build_document(*parse_recipe(kHead + text, "test.toml", seed));
+    auto built = build_document(*parse_recipe(kSite + text, "test.toml", seed));
     for (const scene::Tree& tree : *built->document.trees) at.push_back(tree.at);
     return at;
   };

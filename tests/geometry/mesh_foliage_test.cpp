@@ -10,8 +10,6 @@
 namespace bosquet::geometry {
 namespace {
 
-constexpr FoliageLevel kLevels[] = {FoliageLevel::leaves, FoliageLevel::clusters, FoliageLevel::cards};
-
 /// A tree with all that its foliage needs.
 struct Dressed {
   growth::Skeleton skeleton;

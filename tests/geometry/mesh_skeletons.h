@@ -6,9 +6,12 @@
 
 #include "core/random.h"
 #include "core/scalar.h"
+#include "geometry/foliage.h"
 #include "growth/skeleton.h"
 
 namespace bosquet::geometry {
+
+inline constexpr FoliageLevel kLevels[] = {FoliageLevel::leaves, FoliageLevel::clusters, FoliageLevel::cards};
 
 struct TestTree {
   int seasons = 12;  ///< shoots of the trunk

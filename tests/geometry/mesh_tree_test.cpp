@@ -7,8 +7,6 @@
 namespace bosquet::geometry {
 namespace {
 
-constexpr FoliageLevel kLevels[] = {FoliageLevel::leaves, FoliageLevel::clusters, FoliageLevel::cards};
-
 std::size_t stems(const growth::Skeleton& s) {
   return static_cast<std::size_t>(std::count(s.parent.begin(), s.parent.end(), -1));
 }

@@ -18,7 +18,7 @@ namespace {
 using crowns::ClippedForm;
 using crowns::FormKind;
 
-GrownScene grow(const Document& document) {
+GrownScene grow_clipped(const Document& document) {
   auto grown = grow_scene(document, {}, nullptr);
   EXPECT_TRUE(grown);
   return std::move(*grown);
@@ -56,7 +56,7 @@ const Ordered kOrdered[] = {
 TEST(ClippedTree, KeepsToItsFormAndFillsIt) {
   for (const Ordered& order : kOrdered) {
     SCOPED_TRACE(order.species);
-    const GrownScene scene = grow(clipped_document(order.species, order.form, order.clear_stem_m));
+    const GrownScene scene = grow_clipped(clipped_document(order.species, order.form, order.clear_stem_m));
     const growth::Skeleton& wood = *scene.trees[0].skeleton;
 
     // The last internode of a twig may leave the body by its length.
@@ -101,7 +101,7 @@ TEST(ClippedTree, KeepsToItsFormAndFillsIt) {
 TEST(ClippedTree, IsAsHighAsItsForm) {
   for (const Ordered& order : kOrdered) {
     const Document document = clipped_document(order.species, order.form, order.clear_stem_m);
-    const GrownScene scene = grow(document);
+    const GrownScene scene = grow_clipped(document);
     EXPECT_FLOAT_EQ(document.mature_height_m(document.trees->front()), order.form.height_m);
     EXPECT_NEAR(scene.trees[0].measures.height_m, order.form.height_m, 0.2f + 0.1f * order.form.height_m)
         << order.species;
@@ -115,7 +115,7 @@ TEST(ClippedTree, AnotherFormOfTheSameSizeChangesNoOtherTree) {
   const auto with = [&](FormKind kind) {
     return changed(ball, 2, [&](Tree& tree) { set_form(tree, *ball.species[0], {kind, 1.2f, 1.2f, 3.0f}, 0.0f); });
   };
-  const GrownScene a = grow(with(FormKind::ball)), b = grow(with(FormKind::box));
+  const GrownScene a = grow_clipped(with(FormKind::ball)), b = grow_clipped(with(FormKind::box));
   for (std::size_t i = 0; i < row.size(); ++i)
     EXPECT_EQ(growth::digest(*a.trees[i].skeleton) == growth::digest(*b.trees[i].skeleton), i != 2) << i;
 }
@@ -124,12 +124,12 @@ TEST(ClippedTree, AHedgeBendsNoTreeBesideIt) {
   std::vector<Vec2> places{{10, 10}};
   for (int i = 0; i < 12; ++i) places.push_back({4.0f + static_cast<float>(i), 13.0f});
   Document document = sample_document("european_beech", places, {20, 20}, 0.25f);
-  EXPECT_NE(grow(document).trees[0].asymmetry, Vec3(0.0f));
+  EXPECT_NE(grow_clipped(document).trees[0].asymmetry, Vec3(0.0f));
   std::vector<Tree> trees = document.trees->to_vector();
   for (std::size_t i = 1; i < trees.size(); ++i)
     set_form(trees[i], *document.species[0], {FormKind::box, 1.5f, 0.8f, 1.5f}, 0.0f);
   document.trees = std::make_shared<const Trees>(std::move(trees));
-  EXPECT_EQ(grow(document).trees[0].asymmetry, Vec3(0.0f));
+  EXPECT_EQ(grow_clipped(document).trees[0].asymmetry, Vec3(0.0f));
 }
 
 TEST(ClippedTree, ACachedSkeletonIsNotTakenForAnotherForm) {
@@ -157,9 +157,9 @@ TEST(ClippedTree, EverySpeciesCanBeClipped) {
 TEST(ClearStem, NoBranchIsLeftBelowItAndTheCrownBeginsAboveIt) {
   for (const char* species : {"small_leaved_lime", "norway_maple", "london_plane"}) {
     Document document = sample_document(species, {{15, 15}}, {30, 30}, 0.5f);
-    const growth::Skeleton free = *grow(document).trees[0].skeleton;
+    const growth::Skeleton free = *grow_clipped(document).trees[0].skeleton;
     const growth::Skeleton wood =
-        *grow(changed(document, 0, [](Tree& tree) { tree.clear_stem_m = 4.5f; })).trees[0].skeleton;
+        *grow_clipped(changed(document, 0, [](Tree& tree) { tree.clear_stem_m = 4.5f; })).trees[0].skeleton;
     std::size_t low = 0, branches = 0;
     for (std::size_t i = 0; i < free.size(); ++i) low += free.order[i] > 0 && free.alive(i) && free.distal[i].y < 4.5f;
     EXPECT_GT(low, 0u) << species << " has branches there when nothing is ordered";
@@ -181,7 +181,7 @@ TEST(TreeStatus, ATreeToBeRemovedIsNotGrownAndTakesNoRoom) {
   std::vector<Tree> rest = three.trees->to_vector();
   rest.erase(rest.begin() + 1);
   two.trees = std::make_shared<const Trees>(rest);
-  const GrownScene a = grow(three), b = grow(two);
+  const GrownScene a = grow_clipped(three), b = grow_clipped(two);
   EXPECT_EQ(a.trees.size(), 2u);
   EXPECT_EQ(a.skeleton_digest(), b.skeleton_digest());
   EXPECT_EQ(a.given.trees->size(), 3u);

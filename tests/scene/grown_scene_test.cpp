@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<Vec2> kPlaces{{4, 4}, {7, 5}, {11, 4}, {5, 9}, {9, 10}, {14, 9}, {6, 14}, {12, 14}, {3, 12}, {15, 3}};
 
-GrownScene grow(const Document& document, const GrowOptions& options = {}, int threads = 0, int* worked = nullptr) {
+GrownScene grown(const Document& document, const GrowOptions& options = {}, int threads = 0, int* worked = nullptr) {
   std::optional<Result<GrownScene>> grown;
   run_with_threads(threads, [&] { grown = grow_scene(document, options, nullptr); });
   if (worked) *worked = working_threads();
@@ -24,27 +24,27 @@ GrownScene grow(const Document& document, const GrowOptions& options = {}, int t
 
 TEST(GrownScene, SkeletonsAreTheSameForOneTwoAndEightThreadsThatReallyRun) {
   const Document document = sample_document("silver_birch", kPlaces, {18, 18}, 0.5f);
-  const std::uint64_t one = grow(document, {}, 1).skeleton_digest();
-  EXPECT_EQ(grow(document, {}, 2).skeleton_digest(), one);
+  const std::uint64_t one = grown(document, {}, 1).skeleton_digest();
+  EXPECT_EQ(grown(document, {}, 2).skeleton_digest(), one);
   // Which threads get work is the scheduler's choice: a try in which too few did proves nothing and is repeated.
   int worked = 0;
   for (int attempt = 0; attempt < 10 && worked <= 2; ++attempt)
-    EXPECT_EQ(grow(document, {}, 8, &worked).skeleton_digest(), one);
+    EXPECT_EQ(grown(document, {}, 8, &worked).skeleton_digest(), one);
   EXPECT_GT(worked, 2);
 }
 
 TEST(GrownScene, ATreeThatIsAddedFarAwayChangesNoOther) {
   std::vector<Vec2> places = kPlaces;
-  const GrownScene before = grow(sample_document("silver_birch", places, {80, 18}));
+  const GrownScene before = grown(sample_document("silver_birch", places, {80, 18}));
   places.push_back({75, 9});
-  const GrownScene after = grow(sample_document("silver_birch", places, {80, 18}));
+  const GrownScene after = grown(sample_document("silver_birch", places, {80, 18}));
   for (std::size_t i = 0; i < kPlaces.size(); ++i)
     EXPECT_EQ(growth::digest(*before.trees[i].skeleton), growth::digest(*after.trees[i].skeleton)) << i;
 }
 
 TEST(GrownScene, InternodesKeepToTheirTreesRegion) {
   const Document document = sample_document("english_oak", kPlaces, {18, 18}, 0.4f);
-  const GrownScene scene = grow(document);
+  const GrownScene scene = grown(document);
   std::size_t all = 0, outside = 0;
   for (std::size_t t = 0; t < scene.trees.size(); ++t) {
     const growth::Skeleton& skeleton = *scene.trees[t].skeleton;
@@ -63,10 +63,10 @@ TEST(GrownScene, InternodesKeepToTheirTreesRegion) {
 
 TEST(GrownScene, SwitchingRegionsOffLetsCrownsCross) {
   const Document document = sample_document("english_oak", kPlaces, {18, 18}, 0.5f);
-  const GrownScene kept = grow(document);
+  const GrownScene kept = grown(document);
   GrowOptions without;
   without.regions = without.asymmetry = false;
-  const GrownScene loose = grow(document, without);
+  const GrownScene loose = grown(document, without);
   double inside = 0, free = 0;
   for (std::size_t i = 0; i < kept.trees.size(); ++i)
     inside += kept.trees[i].measures.crown_diameter_m, free += loose.trees[i].measures.crown_diameter_m;
@@ -80,10 +80,10 @@ TEST(GrownScene, AtTheAgeThatItIsSaidToHaveATreeIsAsItIs) {
       std::vector<Tree> trees = document.trees->to_vector();
       trees[0].measured = measured;
       document.trees = std::make_shared<const Trees>(trees);
-      const GrownScene today = grow(document);
+      const GrownScene today = grown(document);
       GrowOptions at;
       at.year = today.trees[0].age_years;
-      const GrownScene then = grow(document, at);
+      const GrownScene then = grown(document, at);
       EXPECT_EQ(then.trees[0].age_years, today.trees[0].age_years);
       EXPECT_EQ(then.trees[0].measures.height_m, today.trees[0].measures.height_m);
       EXPECT_EQ(then.trees[0].measures.internodes, today.trees[0].measures.internodes);
@@ -104,7 +104,7 @@ TEST(GrownScene, AtAnEarlierYearTreesAreSmallerAndAtLaterOnesTaller) {
   for (float year : {5.0f, 15.0f, 40.0f, 90.0f}) {
     GrowOptions at;
     at.year = year;
-    const float height = grow(document, at).trees[0].measures.height_m;
+    const float height = grown(document, at).trees[0].measures.height_m;
     EXPECT_GT(height, last);
     last = height;
   }
@@ -115,7 +115,7 @@ TEST(GrownScene, AGivenTrunkDiameterIsMet) {
   std::vector<Tree> trees = document.trees->to_vector();
   set_measured_size(trees[0], *document.species[0], 14.0f, 0.45f, {});
   document.trees = std::make_shared<const Trees>(trees);
-  const growth::Measures m = grow(document).trees[0].measures;
+  const growth::Measures m = grown(document).trees[0].measures;
   EXPECT_NEAR(m.trunk_diameter_m, 0.45f, 0.005f);
   EXPECT_NEAR(m.height_m, 14.0f, 1.4f);
 }

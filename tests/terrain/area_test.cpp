@@ -14,7 +14,7 @@ const Area kLawn{"great lawn", AreaKind::lawn, Cover::grass};
 const Area kPath{"lime walk", AreaKind::path, Cover::gravel};
 const Area kSquare{"square", AreaKind::other, Cover::paving};
 
-Terrain flat(Vec2 size_m) { return make_terrain(Heightfield(*make_lattice(size_m))); }
+Terrain flat_site(Vec2 size_m) { return make_terrain(Heightfield(*make_lattice(size_m))); }
 
 Polygon rectangle(Vec2 low, Vec2 high) { return {{low, {high.x, low.y}, high, {low.x, high.y}}, {}}; }
 
@@ -26,7 +26,7 @@ std::string name_at(const Terrain& site, Vec2 plan) {
 }
 
 TEST(Areas, EachPlaceBelongsToTheAreaThatBarsIt) {
-  Terrain site = exclude(flat({60, 40}), rectangle({10, 5}, {50, 35}), kLawn);
+  Terrain site = exclude(flat_site({60, 40}), rectangle({10, 5}, {50, 35}), kLawn);
   site = exclude_path(site, std::vector<Vec2>{{0, 20}, {60, 20}}, 4.0f, kPath);
   site = exclude(site, rectangle({25, 25}, {30, 30}), kSquare);
   EXPECT_EQ(name_at(site, {5, 30}), "-");
@@ -39,19 +39,19 @@ TEST(Areas, EachPlaceBelongsToTheAreaThatBarsIt) {
 }
 
 TEST(Areas, AnExclusionOfWhichNobodySaidWhatItIsHasNoName) {
-  Terrain site = exclude(flat({40, 40}), rectangle({10, 10}, {30, 30}));
+  Terrain site = exclude(flat_site({40, 40}), rectangle({10, 10}, {30, 30}));
   ASSERT_TRUE(site.area_at({20, 20}));
   EXPECT_EQ(site.area_at({20, 20})->name, "");
   EXPECT_TRUE(site.areas.empty());
   EXPECT_EQ(share(site, {20, 20}, Cover::gravel), 1.0f);
   // Nor does it take the name of what it lies on.
-  site = exclude(exclude(flat({40, 40}), rectangle({0, 0}, {40, 40}), kLawn), rectangle({10, 10}, {30, 30}));
+  site = exclude(exclude(flat_site({40, 40}), rectangle({0, 0}, {40, 40}), kLawn), rectangle({10, 10}, {30, 30}));
   EXPECT_EQ(name_at(site, {20, 20}), "");
   EXPECT_EQ(name_at(site, {5, 5}), "great lawn");
 }
 
 TEST(Areas, CoversTogetherAreTheExclusion) {
-  Terrain site = exclude(flat({40, 40}), rectangle({4.3f, 5.1f}, {30.2f, 33.7f}), kLawn);
+  Terrain site = exclude(flat_site({40, 40}), rectangle({4.3f, 5.1f}, {30.2f, 33.7f}), kLawn);
   site = exclude_path(site, std::vector<Vec2>{{0, 3}, {20, 22}, {40, 18}}, 2.6f, kPath);
   site = apply(site, {.kind = BrushKind::exclude, .points = {{25, 10}}, .radius_m = 6, .area = kSquare});
   site = apply(site, {.kind = BrushKind::include, .points = {{12, 28}, {18, 20}}, .radius_m = 3});
@@ -66,7 +66,7 @@ TEST(Areas, CoversTogetherAreTheExclusion) {
 
 TEST(Areas, APathAcrossALawnIsAsWideAsItIsSaidAndHasAFineEdge) {
   const Vec2 from{5, 8}, to{55, 32};
-  Terrain site = exclude(flat({60, 40}), rectangle({0, 0}, {60, 40}), kLawn);
+  Terrain site = exclude(flat_site({60, 40}), rectangle({0, 0}, {60, 40}), kLawn);
   site = exclude_path(site, std::vector<Vec2>{from, to}, 3.0f, kPath);
   const Vec2 along = glm::normalize(to - from), across{-along.y, along.x};
   double gravel = 0, cut = 0, area_width = 0;
@@ -86,7 +86,7 @@ TEST(Areas, APathAcrossALawnIsAsWideAsItIsSaidAndHasAFineEdge) {
 }
 
 TEST(Areas, IncludingFreesAPlaceOfItsArea) {
-  Terrain site = exclude(flat({40, 40}), rectangle({0, 0}, {40, 40}), kLawn);
+  Terrain site = exclude(flat_site({40, 40}), rectangle({0, 0}, {40, 40}), kLawn);
   site = apply(site, {.kind = BrushKind::include, .points = {{20, 20}}, .radius_m = 6});
   EXPECT_EQ(name_at(site, {20, 20}), "-");
   EXPECT_EQ(name_at(site, {30, 30}), "great lawn");
@@ -97,7 +97,7 @@ TEST(Areas, IncludingFreesAPlaceOfItsArea) {
 }
 
 TEST(Areas, PaintingAnAreaTwiceIsPaintingItOnce) {
-  const Terrain lawn = exclude(flat({40, 40}), rectangle({3, 3}, {37, 30}), kLawn);
+  const Terrain lawn = exclude(flat_site({40, 40}), rectangle({3, 3}, {37, 30}), kLawn);
   const Stroke stroke{.kind = BrushKind::exclude, .points = {{5, 8}, {35, 33}}, .radius_m = 2.3f, .area = kPath};
   const Terrain once = apply(lawn, stroke), twice = apply(once, stroke);
   EXPECT_EQ(once.areas.count(), twice.areas.count());
@@ -111,7 +111,7 @@ TEST(Areas, PaintingAnAreaTwiceIsPaintingItOnce) {
 // Turning the site by a quarter turns every answer with it.
 RC_GTEST_PROP(Areas, DoNotDependOnTheSitesDirection, ()) {
   const auto coordinate = [] { return static_cast<float>(*rc::gen::inRange(-20, 340)) * 0.1f; };
-  Terrain a = flat({32, 32}), b = a;
+  Terrain a = flat_site({32, 32}), b = a;
   const Area kinds[3] = {kLawn, kPath, kSquare};
   for (int n = 0; n < 4; ++n) {
     const Vec2 p{coordinate(), coordinate()}, q{coordinate(), coordinate()};
@@ -132,7 +132,8 @@ RC_GTEST_PROP(Areas, DoNotDependOnTheSitesDirection, ()) {
 TEST(Areas, OutsideABoundaryIsItsComplement) {
   const Polygon boundary{{{5, 5}, {35, 8}, {20, 36}}, {}};
   const Area outside{"outside", AreaKind::other, Cover::natural};
-  const Terrain in = exclude(flat({40, 40}), boundary), out = exclude_outside(flat({40, 40}), boundary, outside);
+  const Terrain in = exclude(flat_site({40, 40}), boundary),
+                out = exclude_outside(flat_site({40, 40}), boundary, outside);
   for (int j = 0; j < 80; ++j)
     for (int i = 0; i < 80; ++i) ASSERT_NEAR(in.exclusion.cell(i, j) + out.exclusion.cell(i, j), 1.0f, 0.003f);
   EXPECT_EQ(name_at(out, {2, 2}), "outside");

@@ -12,7 +12,7 @@ namespace {
 
 Terrain flat(Vec2 size_m, float height = 0.0f) { return make_terrain(Heightfield(*make_lattice(size_m), height)); }
 
-Terrain rough(Vec2 size_m) {
+Terrain rough_ground(Vec2 size_m) {
   return make_terrain(with_noise(Heightfield(*make_lattice(size_m)), PerlinNoise{2.0f, 6.0f, 4}, 5));
 }
 
@@ -33,7 +33,7 @@ TEST(Brush, LoweringByTwoMetresIsTwoMetresDeepAlongTheStrokeAndEndsAtItsRadius) 
 
 TEST(Brush, RaisingAndLoweringAlikeCancel) {
   Stroke stroke{.kind = BrushKind::raise, .points = {{5, 5}, {20, 25}}, .radius_m = 7, .strength = 0.6f};
-  const Terrain before = rough({30, 30});
+  const Terrain before = rough_ground({30, 30});
   Terrain after = apply(before, stroke);
   EXPECT_GT(after.ground({12, 14}), before.ground({12, 14}) + 0.3f);
   stroke.kind = BrushKind::lower;
@@ -43,7 +43,7 @@ TEST(Brush, RaisingAndLoweringAlikeCancel) {
 }
 
 TEST(Brush, FlatteningLeadsToTheHeightFirstTouched) {
-  const Terrain before = rough({40, 40});
+  const Terrain before = rough_ground({40, 40});
   const float first = before.ground({12.25f, 20});
   const Terrain after =
       apply(before, {.kind = BrushKind::flatten, .points = {{12.25f, 20}, {28, 20}}, .radius_m = 8, .hardness = 0.5f});
@@ -63,7 +63,7 @@ RC_GTEST_PROP(Brush, SmoothingLeavesEveryPlaneAsItIs, ()) {
 }
 
 TEST(Brush, SmoothingTakesMostOfTheRoughnessAway) {
-  const Terrain before = rough({60, 60});
+  const Terrain before = rough_ground({60, 60});
   const Terrain after =
       apply(before, {.kind = BrushKind::smooth, .points = {{30, 30}}, .radius_m = 25, .hardness = 0.8f});
   const auto roughness = [](const Terrain& t) {  // squared second differences
@@ -79,7 +79,7 @@ TEST(Brush, SmoothingTakesMostOfTheRoughnessAway) {
 }
 
 TEST(Brush, AStrokeDoesNotDependOnHowManyEventsRecordedIt) {
-  const Terrain before = rough({50, 50});
+  const Terrain before = rough_ground({50, 50});
   for (const BrushKind kind : {BrushKind::raise, BrushKind::lower, BrushKind::smooth, BrushKind::flatten,
                                BrushKind::noise, BrushKind::exclude, BrushKind::density}) {
     const Stroke sparse{.kind = kind, .points = {{10, 12}, {42, 28}}, .radius_m = 5, .strength = 0.7f};

@@ -15,11 +15,11 @@ Polygon disc(Vec2 centre, float radius) {
   return out;
 }
 
-Terrain flat(float height) { return make_terrain(Heightfield(*make_lattice({60, 60}), height)); }
+Terrain level_ground(float height) { return make_terrain(Heightfield(*make_lattice({60, 60}), height)); }
 
 TEST(Pond, OnLevelGroundWaterStandsInItsOutlineAndNowhereElse) {
   const Polygon outline = disc({30, 30}, 15);
-  const DugPond pond = dig_pond(flat(7), "mere", outline);
+  const DugPond pond = dig_pond(level_ground(7), "mere", outline);
   EXPECT_FLOAT_EQ(pond.level_m, 7 - kFreeboard_m);
   EXPECT_FALSE(pond.lowered);
   const Terrain& site = pond.edit.terrain;
@@ -39,9 +39,9 @@ TEST(Pond, OnLevelGroundWaterStandsInItsOutlineAndNowhereElse) {
 
 TEST(Pond, ItsBankHasTheSlopeThatIsSaid) {
   // A straight shore at x = 20: the bed falls by a metre in three.
-  const Terrain site =
-      dig_pond(flat(0), "basin", {{{20, -50}, {200, -50}, {200, 100}, {20, 100}}, {}}, {}, {.depth_m = 2, .bank = 3})
-          .edit.terrain;
+  const Terrain site = dig_pond(level_ground(0), "basin", {{{20, -50}, {200, -50}, {200, 100}, {20, 100}}, {}}, {},
+                                {.depth_m = 2, .bank = 3})
+                           .edit.terrain;
   for (float x = 20; x < 25.5f; x += 0.5f) EXPECT_NEAR(site.ground({x, 30}), -kFreeboard_m - (x - 20) / 3, 1e-4f);
   EXPECT_NEAR(site.ground({40, 30}), -kFreeboard_m - 2, 1e-4f);
 }
@@ -64,10 +64,10 @@ TEST(Pond, OnASlopeItsLevelIsThatOfTheLowestPlaceOnItsRimAndTheHillIsCutBack) {
 }
 
 TEST(Pond, ALevelAboveItsRimIsLoweredToIt) {
-  const DugPond pond = dig_pond(flat(3), "full", disc({30, 30}, 10), 5.0f);
+  const DugPond pond = dig_pond(level_ground(3), "full", disc({30, 30}, 10), 5.0f);
   EXPECT_TRUE(pond.lowered);
   EXPECT_FLOAT_EQ(pond.level_m, 3 - kFreeboard_m);
-  EXPECT_FLOAT_EQ(dig_pond(flat(3), "low", disc({30, 30}, 10), 2.0f).level_m, 2.0f);
+  EXPECT_FLOAT_EQ(dig_pond(level_ground(3), "low", disc({30, 30}, 10), 2.0f).level_m, 2.0f);
 }
 
 TEST(Pond, TwoPondsKeepTheirLevelsAndTheSitesLevelIsBesideThem) {
@@ -86,7 +86,7 @@ TEST(Pond, TwoPondsKeepTheirLevelsAndTheSitesLevelIsBesideThem) {
 TEST(Pond, AnIslandStaysDry) {
   Polygon outline = disc({30, 30}, 20);
   outline.holes.push_back(disc({30, 30}, 6).ring);
-  const Terrain site = dig_pond(flat(0), "moat", outline).edit.terrain;
+  const Terrain site = dig_pond(level_ground(0), "moat", outline).edit.terrain;
   EXPECT_FALSE(site.under_water({30, 30}));
   EXPECT_EQ(site.ground({30, 30}), 0);
   EXPECT_TRUE(site.under_water({42, 30}));
@@ -94,14 +94,14 @@ TEST(Pond, AnIslandStaysDry) {
 }
 
 TEST(Pond, OffTheSiteNothingIsDug) {
-  const Terrain before = flat(1);
+  const Terrain before = level_ground(1);
   const DugPond pond = dig_pond(before, "far", disc({300, 30}, 10));
   EXPECT_TRUE(pond.edit.touched.empty());
   EXPECT_FALSE(pond.edit.terrain.has_water());
 }
 
 TEST(Pond, APathOverItKeepsTheWaterUnderIt) {
-  Terrain site = dig_pond(flat(2), "mere", disc({30, 30}, 15)).edit.terrain;
+  Terrain site = dig_pond(level_ground(2), "mere", disc({30, 30}, 15)).edit.terrain;
   site = exclude_path(site, std::vector<Vec2>{{0, 30}, {60, 30}}, 2, {"bridge", AreaKind::path, Cover::paving});
   EXPECT_EQ(site.area_at({30, 30})->name, "bridge");
   EXPECT_TRUE(site.under_water({30, 30}));
