@@ -2,64 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
+#include <utility>
+#include <vector>
 
 #include "core/random.h"
 #include "core/scalar.h"
 #include "geometry/branch_mesh.h"
 #include "geometry/leaf_atlas.h"
+#include "geometry/leaf_cards.h"
+#include "geometry/leafy_wood.h"
+#include "geometry/petiole.h"
+#include "geometry/shares.h"
 
 namespace bosquet::geometry {
 namespace {
-
-Vec3 unit(const Vec3& v, const Vec3& otherwise) {
-  const float l2 = glm::dot(v, v);
-  return l2 > 1e-10f ? v / std::sqrt(l2) : otherwise;
-}
-
-/// Random numbers of a twig (leaf kWholeTwig), a leaf of it, or an internode (place kOfInternode).
-constexpr std::uint32_t kOfInternode = 0xffff;
-RandomStream stream(const FoliageInput& in, std::uint32_t internode, std::uint32_t place,
-                    int leaf = LeafSite::kWholeTwig) {
-  const std::uint64_t which = static_cast<std::uint64_t>(internode) << 32 | static_cast<std::uint64_t>(place) << 16 |
-                              static_cast<std::uint64_t>(leaf + 2);
-  return {in.seed, mix_bits(in.key) + which, Purpose::foliage};
-}
-
-/// Exposure of leafy wood beside that of its crown. Even a free tree's leaves shade each other so much that few see half of
-/// the sky; eyes and cameras take the brightest for white.
-class CrownLight {
- public:
-  CrownLight(const growth::Skeleton& s, const ThickestPaths& paths, const std::vector<std::uint8_t>& bears)
-      : light_(s.light) {
-    for (std::uint32_t i : paths.internodes)
-      if (bears[i]) sorted_.push_back(s.light[i]);
-    std::sort(sorted_.begin(), sorted_.end());
-    if (!sorted_.empty()) scale_ = 1.0f / std::clamp(sorted_[sorted_.size() * 19 / 20], 0.02f, 1.0f);
-  }
-  /// 1 where nineteen of twenty are darker, in proportion below.
-  float at(std::uint32_t internode) const { return std::clamp(light_[internode] * scale_, 0.0f, 1.0f); }
-
-  /// Share of the leafy wood that is not brighter.
-  float rank(std::uint32_t internode) const {
-    const auto above = std::upper_bound(sorted_.begin(), sorted_.end(), light_[internode]);
-    return sorted_.empty() ? 1.0f : static_cast<float>(above - sorted_.begin()) / static_cast<float>(sorted_.size());
-  }
-
- private:
-  const std::vector<float>& light_;
-  std::vector<float> sorted_;
-  float scale_ = 1.0f;
-};
-
-/// r L^2 > 1 - share: r is a hash of the twig's place, L the rank of its exposure in the crown.
-bool blooms(const FoliageInput& in, const Bloom* bloom, const LeafSite& site, const CrownLight& light) {
-  if (!bloom) return false;
-  constexpr std::uint64_t kBlooming = 990;
-  const float r = static_cast<float>(stream(in, site.internode, site.place).at(kBlooming) >> 40) * 0x1p-24f;
-  const float rank = light.rank(site.internode);
-  return r * rank * rank > 1.0f - bloom->share;
-}
 
 /// Bunches that hang from their stalks; others stand out from their twig.
 bool hangs(BloomForm form) {
@@ -67,88 +23,8 @@ bool hangs(BloomForm form) {
          form == BloomForm::bracts || form == BloomForm::drupes || form == BloomForm::nuts || form == BloomForm::cones;
 }
 
-/// For each standing internode, whether it is young and thin enough to bear leaves.
-std::vector<std::uint8_t> bearing(const FoliageInput& in) {
-  const growth::Skeleton& s = *in.skeleton;
-  std::vector<std::uint16_t> last_growth(s.size(), 0);
-  for (std::uint32_t i : in.paths->internodes) last_growth[i] = s.born[i];
-  for (std::size_t i = s.size(); i-- > 0;) {
-    if (s.parent[i] < 0) continue;
-    std::uint16_t& below = last_growth[static_cast<std::size_t>(s.parent[i])];
-    below = std::max(below, last_growth[i]);
-  }
-  std::vector<std::uint8_t> bears(s.size(), 0);
-  for (std::uint32_t i : in.paths->internodes)
-    bears[i] = 2000.0f * in.radius[i] <= in.foliage->max_twig_mm &&
-               last_growth[i] - s.born[i] <= in.foliage->leaf_life_seasons;
-  return bears;
-}
-
-/// The open side of the crown: the gradient of an ellipsoid as wide and high as the foliage, and a little upward, where
-/// the light is.
-class Crown {
- public:
-  Crown(const growth::Skeleton& s, std::span<const LeafSite> sites) {
-    DVec3 sum{0.0}, squares{0.0};
-    for (const LeafSite& site : sites) {
-      const DVec3 p{s.distal[site.internode]};
-      sum += p, squares += p * p;
-    }
-    const double n = std::max<double>(1.0, static_cast<double>(sites.size()));
-    const DVec3 mean = sum / n, variance = squares / n - mean * mean;
-    centre_ = Vec3(mean);
-    const auto level = static_cast<float>(variance.x + variance.z), upright = static_cast<float>(variance.y);
-    centre_.y -= 0.4f * std::sqrt(std::max(0.0f, upright));
-    curvature_ = {1.0f / (0.5f * level + 0.05f), 1.0f / (upright + 0.05f), 1.0f / (0.5f * level + 0.05f)};
-  }
-  Vec3 outward(const Vec3& p) const { return unit(unit((p - centre_) * curvature_, kUp) + 0.35f * kUp, kUp); }
-
- private:
-  Vec3 centre_, curvature_;
-};
-
-/// Frame of a stalk at its foot: at `angle` from the twig, its upper side toward the twig's tip.
-LeafFrame stalk(const Vec3& twig, const Vec3& radial, const SinCos& angle) {
-  const Vec3 heading = angle.cos * twig + angle.sin * radial;
-  const Vec3 up = unit(twig - glm::dot(twig, heading) * heading, radial);
-  return {heading, glm::cross(up, heading), up};
-}
-
-/// Unit vectors across a twig: `side` level, so that two-ranked leaves make flat sprays, `over` at a right angle.
-struct Across {
-  Vec3 side, over;
-  explicit Across(const Vec3& twig) {
-    const Vec3 level = unit(glm::cross(twig, kUp), Vec3{1, 0, 0});
-    side = unit(level - glm::dot(level, twig) * twig, Vec3{0, 0, 1});
-    over = glm::cross(side, twig);
-  }
-  Vec3 at(const SinCos& azimuth) const { return azimuth.cos * side + azimuth.sin * over; }
-};
-
 /// The sum of two angles.
 SinCos sum(const SinCos& a, const SinCos& b) { return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin}; }
-
-/// Where a blade or twig that hangs `droop` below level, away from its foot, points, and the normal of its upper side.
-struct Hanging {
-  Vec3 heading, normal;
-};
-Hanging hanging(const Vec3& heading, const SinCos& droop, const Vec3& out) {
-  const Vec3 level{heading.x, 0, heading.z};
-  const float l2 = glm::dot(level, level);
-  const Vec3 away = l2 > 1e-10f ? level / std::sqrt(l2) : unit(Vec3{out.x, 0, out.z}, Vec3{1, 0, 0});
-  return {droop.cos * away - droop.sin * kUp, droop.cos * kUp + droop.sin * away};
-}
-
-/// The stalk sinks under its load, the more the softer it is.
-LeafFrame sunk(const LeafFrame& frame, const Vec3& heading, float softness) {
-  LeafFrame f;
-  f.heading = unit(glm::mix(frame.heading, heading, softness / (1.0f + softness)), frame.heading);
-  f.up = unit(frame.up - glm::dot(frame.up, f.heading) * f.heading, frame.left);
-  f.left = glm::cross(f.up, f.heading);
-  return f;
-}
-
-std::uint8_t byte(float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
 /// Linear colour factor: `warm` above 0 turns green toward yellow and red, below 0 away from it.
 Vec3 hue_turned(float warm) {
@@ -157,65 +33,6 @@ Vec3 hue_turned(float warm) {
 
 /// Leaves let light through to those behind them: shade is less deep than on wood.
 float leaf_occlusion(float light) { return 0.3f + 0.7f * occlusion(light); }
-
-/// Writes cards: strips of `columns` quads across, one row.
-class Cards {
- public:
-  /// `small`: cards over which the crown's outward direction hardly changes.
-  Cards(const Crown& crown, float soft, bool small) : crown_(crown), soft_(soft), small_(small) {}
-
-  /// A card with its foot at `foot`, `length` along `heading`; `sides` are the directions from its midline to the left
-  /// and right edge (two halves, or one flat card when they are opposite), `normals` those of the halves.
-  /// `out` is the crown's outward direction somewhere near.
-  void add(const Vec3& foot, const Vec3& heading, float length, float half_width, const Vec3& left, const Vec3& right,
-           const Vec3& up, const Vec3& out, const AtlasCell& uv, Rgba8 colour, bool folded) {
-    const Vec3 to_top = length * heading;
-    const Vec3 outward = small_ ? out : crown_.outward(foot + 0.5f * to_top);
-    const float facing = glm::dot(up, outward);
-    const bool front = facing >= 0.0f;
-    // A card seen edge-on from outside shows both its sides there: its normals stay its own, or one side would be
-    // black.
-    const float x = std::min(1.0f, std::abs(facing) / 0.7f);
-    const float soft = soft_ * x * x * (3.0f - 2.0f * x);
-    const Vec3 l = half_width * left, r = half_width * right;
-    const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-    const Vec3 across = folded ? unit(right - left, left) : right;
-    const Vec3 flat = front ? up : -up, of_all = unit(glm::mix(flat, outward, soft), kUp);
-    const auto normal = [&](const Vec3& p, float side) {
-      if (small_ && !folded) return of_all;
-      // Halves of a folded card look a little to their own side.
-      const Vec3 face = folded ? unit(flat + 0.35f * side * across, up) : flat;
-      return unit(glm::mix(face, crown_.outward(p), soft), kUp);
-    };
-    const auto corner = [&](const Vec3& p, float u, float v, float side) {
-      mesh.positions.push_back(p);
-      mesh.normals.push_back(normal(p, side));
-      mesh.uvs.push_back({u, v});
-      mesh.colours.push_back(colour);
-    };
-    const float middle = 0.5f * (uv.u0 + uv.u1);
-    corner(foot + l, uv.u0, uv.v1, -1);
-    if (folded) corner(foot, middle, uv.v1, 0);
-    corner(foot + r, uv.u1, uv.v1, 1);
-    corner(foot + l + to_top, uv.u0, uv.v0, -1);
-    if (folded) corner(foot + to_top, middle, uv.v0, 0);
-    corner(foot + r + to_top, uv.u1, uv.v0, 1);
-    const std::uint32_t row = folded ? 3 : 2;
-    for (std::uint32_t k = 0; k + 1 < row; ++k) {
-      const std::uint32_t a = base + k, b = a + 1, c = a + row, d = c + 1;
-      const std::array<std::uint32_t, 6> two =
-          front ? std::array<std::uint32_t, 6>{a, b, d, a, d, c} : std::array<std::uint32_t, 6>{a, d, b, a, c, d};
-      mesh.indices.insert(mesh.indices.end(), two.begin(), two.end());
-    }
-  }
-
-  TriangleMesh mesh;
-
- private:
-  const Crown& crown_;
-  float soft_;
-  bool small_;
-};
 
 AtlasCell inset(AtlasCell cell, float share_of_width) {
   const float margin = 0.5f * kAtlasMargin, middle = 0.5f * (cell.u0 + cell.u1);
@@ -236,98 +53,273 @@ float place_on_twig(const LeafLook& leaf, int number, int leaves, float jitter) 
   return leaf.cluster == ClusterForm::tuft ? 0.55f + 0.45f * x : 0.12f + 0.88f * x;
 }
 
-}  // namespace
+/// Makes the cards of a tree's leaf sites. Sites of one twig come one after the other.
+class FoliageMesher {
+ public:
+  FoliageMesher(const FoliageInput& in, FoliageLevel level, std::span<const LeafSite> sites, std::size_t count)
+      : in_(in),
+        look_(*in.foliage),
+        leaf_(in.look->leaf),
+        level_(level),
+        sites_(sites),
+        count_(count),
+        single_(level == FoliageLevel::leaves),
+        folded_(level == FoliageLevel::clusters && look_.cluster_planes == 1),
+        bloom_(bloom_of(leaf_, in.season)),
+        insertion_(sin_cos(radians(look_.insertion_deg))),
+        leaf_droop_(sin_cos(radians(leaf_.droop_deg))),
+        twig_droop_(sin_cos(radians(look_.cluster_droop_deg))),
+        fold_(sin_cos(radians(folded_ ? look_.fold_deg : 0.0f))),
+        crown_(*in.skeleton, sites),
+        crown_light_(in) {
+    measure_cards();
+    measure_thinning();
+    RandomStream of_tree = foliage_stream(in, 0xffffffff, kOfInternode);
+    tree_warmth_ = look_.tree_hue * of_tree.uniform(-0.5f, 0.5f);
+    tree_value_ = 1.0f - 0.16f * look_.tree_hue * of_tree.uniform();
+    mottle_ = in.season == Season::autumn && !leaf_.evergreen ? 0.35f : 0.12f;
+  }
 
-std::vector<LeafSite> leaf_sites(const FoliageInput& in, FoliageLevel level) {
-  const growth::Skeleton& s = *in.skeleton;
-  const FoliageLook& look = *in.foliage;
-  const bool leafed = has_leaves(in.look->leaf, in.season);
-  std::vector<LeafSite> sites;
-  if (level == FoliageLevel::leaves && !leafed) return sites;
-  const bool single = level == FoliageLevel::leaves;
-  const Bloom* bloom = bloom_of(in.look->leaf, in.season);
-  const int leaves = single ? single_leaves(in.look->leaf) : 0;
-  const float fallen = in.season == Season::autumn && !in.look->leaf.evergreen ? look.autumn_fall : 0.0f;
-  const float divergence = radians(look.divergence_deg);
-  const std::vector<std::uint8_t> bears = bearing(in);
-  const CrownLight crown_light(s, *in.paths, bears);
-
-  for (const ThickestPaths::Path& path : in.paths->paths) {
-    const auto run = in.paths->of(path);
-    // Around a twig leaves go on turning from internode to internode; 64 turns are enough to forget where it began.
-    std::uint32_t around = static_cast<std::uint32_t>(stream(in, run[0], kOfInternode).at(1) >> 58);
-    for (std::size_t k = 0; k < run.size(); ++k) {
-      const std::uint32_t i = run[k];
-      if (!bears[i]) continue;
-      const Vec3 d = s.distal[i] - s.proximal(i);
-      const float length = std::sqrt(glm::dot(d, d));
-      RandomStream of_internode = stream(in, i, kOfInternode);
-      const auto n =
-          std::min(static_cast<std::uint32_t>(length / look.cluster_spacing_m + of_internode.uniform()), 1000u);
-      // The foot of a side branch lies inside the wood that bears it.
-      const float inside = k == 0 && path.parent >= 0 ? in.radius[in.paths->internodes[path.node]] : 0.0f;
-      for (std::uint32_t place = 0; place <= n; ++place) {
-        const bool tip = place == n;
-        if (tip && k + 1 < run.size()) break;
-        RandomStream random = stream(in, i, place);
-        LeafSite site;
-        site.internode = i;
-        site.place = static_cast<std::uint16_t>(place);
-        site.tip = tip;
-        site.at = tip ? 1.0f : (static_cast<float>(place) + random.uniform(0.25f, 0.75f)) / static_cast<float>(n);
-        site.azimuth = divergence * static_cast<float>(around++) + random.uniform(-0.25f, 0.25f);
-        site.size = 1.0f + look.size_variation * random.uniform(-1.0f, 1.0f);
-        const bool gone = random.uniform() < fallen;
-        if ((gone && !single) || site.at * length < inside) continue;
-        if (!single) {
-          sites.push_back(site);
-          continue;
-        }
-        // The twig's wood and its leaves one by one.
-        const float twig_size = site.size;
-        site.leaf = LeafSite::kTwigWood;
-        sites.push_back(site);
-        for (int number = 0; number < leaves; ++number) {
-          RandomStream of_leaf = stream(in, i, place, number);
-          site.leaf = static_cast<std::int16_t>(number);
-          site.size = twig_size * (1.0f + look.size_variation * of_leaf.uniform(-1.0f, 1.0f));
-          if (of_leaf.uniform() >= fallen) sites.push_back(site);
-        }
-        site.size = 1.0f;
-        if (blooms(in, bloom, site, crown_light))
-          for (int bunch = 0; bunch < bloom->bunches; ++bunch) {
-            site.leaf = static_cast<std::int16_t>(LeafSite::kFirstBunch + bunch);
-            sites.push_back(site);
-          }
+  TriangleMesh mesh() {
+    const std::size_t triangles = count_ * triangles_per_site(look_, level_);
+    CardWriter cards(crown_, look_.soft_normals, triangles, folded_ ? 6 * count_ : 2 * triangles);
+    std::array<const LeafSite*, 4> waiting;
+    int waits = 0;
+    const auto write_waiting = [&] {
+      if (waits > 0) add_leaves(std::span(waiting).first(static_cast<std::size_t>(waits)), cards);
+      waits = 0;
+    };
+    const LeafSite* last = nullptr;
+    for (std::size_t k = 0; k < sites_.size(); ++k) {
+      if (!keeps(k)) continue;
+      const LeafSite& site = sites_[k];
+      if (!last || site.internode != last->internode || site.place != last->place) {
+        write_waiting();
+        stand_twig(site);
       }
+      last = &site;
+      if (!single_) {
+        add_twig(site, cards);
+        continue;
+      }
+      waiting[static_cast<std::size_t>(waits++)] = &site;
+      if (waits == 4) write_waiting();
+    }
+    write_waiting();
+    return cards.take();
+  }
+
+ private:
+  void measure_cards() {
+    const bool spring = in_.season == Season::spring;
+    const float season_size = spring && !leaf_.evergreen ? look_.spring_size : 1.0f;
+    constexpr float kFilled = 1.0f - 2.0f * kAtlasMargin;
+    twig_m_ = cluster_cell_m(leaf_) * (0.5f + 0.5f * season_size) * kFilled;
+    if (!single_) return;
+    leaf_m_ = leaf_cell_m(leaf_) * season_size * kFilled;
+    bunch_m_ = bloom_ ? bunch_cell_m(*bloom_) * kFilled : 0.0f;
+    folded_leaves_ = bloom_ && bloom_->before_leaves && spring;
+    narrow_ = is_needle(leaf_.outline) ? 1.0f : std::clamp(1.35e-3f * leaf_.width_mm / leaf_cell_m(leaf_), 0.1f, 1.0f);
+    leaves_ = single_leaves(leaf_);
+    for (int number = 0; number < std::max(leaves_, bloom_ ? bloom_->bunches : 0); ++number)
+      turned_.push_back(sin_cos(radians(look_.divergence_deg) * static_cast<float>(number)));
+  }
+
+  /// What is left out adds its area to the others.
+  void measure_thinning() {
+    double all = 0.0, of_kept = 0.0;
+    for (std::size_t k = 0; k < sites_.size(); ++k) {
+      if (!sites_[k].is_leafy()) continue;
+      const double area = static_cast<double>(sites_[k].size) * static_cast<double>(sites_[k].size);
+      all += area;
+      if (keeps(k)) of_kept += area;
+    }
+    growth_ = of_kept > 0.0 ? static_cast<float>(std::sqrt(all / of_kept)) : 1.0f;
+    crowding_ = 1.0f - 1.0f / growth_;
+  }
+
+  bool keeps(std::size_t k) const {
+    const std::size_t n = sites_.size();
+    return count_ == n || (k + 1) * count_ / n != k * count_ / n;
+  }
+
+  /// Where the twig stands on its branch and how it turns; wood turns less than a leaf's stalk.
+  void stand_twig(const LeafSite& site) {
+    const growth::Skeleton& s = *in_.skeleton;
+    const std::uint32_t i = site.internode;
+    const RandomStream random = foliage_stream(in_, i, site.place);
+    light_ = crown_light_.at(i);
+    const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
+    warmth_ = look_.vigor_hue * weak * weak + tree_warmth_;
+    value_ = leaf_occlusion(light_) * tree_value_;
+    blooming_ = blooms(in_, bloom_, site, crown_light_);
+    const Vec3 from = s.proximal(i), to = s.distal[i];
+    const Vec3 branch = unit(to - from, kUp);
+    const Across across(branch);
+    azimuth_ = sin_cos(site.azimuth);
+    const Vec3 radial = across.at(azimuth_);
+    at_ = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in_.radius[i]) * radial;
+    out_ = crown_.outward(at_);
+    const LeafFrame foot = site.tip ? stalk(branch, across.over, {0.0f, 1.0f}) : stalk(branch, radial, insertion_);
+    // A card that stands for many looks out of the crown, a piece of its shell.
+    const Hanging hang = hanging(all4(foot.heading), twig_droop_, all4(out_));
+    constexpr std::uint64_t kAny = 1000;  // far from the numbers drawn in turn
+    const auto any = [&](std::uint64_t number) {
+      return static_cast<float>(random.at(kAny + number) >> 40) * 0x1p-23f - 1.0f;
+    };
+    const float shell = single_ ? 0.0f : crowding_;
+    const Vec3 toward = unit(glm::mix(hang.normal.lane(0), out_, std::max(look_.sun_turn * light_, shell)) +
+                                 0.7f * shell * Vec3{any(0), any(1), any(2)},
+                             kUp);
+    const float ease = 0.6f * (0.9f + 0.3f * any(3)) * (1.0f + shell);
+    frame_ = turn_petiole(sunk(all4(foot), hang.heading, all4(ease * look_.bend)), all4(toward),
+                          all4(ease * look_.twist), all4(ease * look_.bend), all4(ease * look_.turn))
+                 .lane(0);
+    if (single_) across_ = Across(frame_.heading);
+  }
+
+  Rgba8 colour(const Vec3& tint) const { return {unorm8(tint.x), unorm8(tint.y), unorm8(tint.z), 255}; }
+  Vec3 leaf_tint(float mottle) const { return hue_turned(std::clamp(warmth_ + mottle_ * mottle, -1.0f, 1.0f)); }
+
+  /// The twig of a site with all its leaves: one card, folded or not, or crossed ones.
+  void add_twig(const LeafSite& site, CardWriter& cards) const {
+    RandomStream random = draws(site);
+    LeafCard card;
+    const Vec3 tint = leaf_tint(random.uniform(-1.0f, 1.0f));
+    card.colour = colour(value_ * random.uniform(0.88f, 1.0f) * tint);
+    const bool first = random.uniform() < 0.5f;
+    // In a season with a bloom the atlas' first column shows it, the second is plain.
+    card.uv = inset(cluster_cell(bloom_ ? !blooming_ : !first), 1.0f);
+    if (random.uniform() < 0.5f) std::swap(card.uv.u0, card.uv.u1);
+    // A card of far trees has the area of all planes of the clusters that it stands for.
+    const float of_planes = level_ == FoliageLevel::cards ? std::sqrt(static_cast<float>(look_.cluster_planes)) : 1.0f;
+    card.length = twig_m_ * site.size * growth_ * of_planes, card.half_width = 0.5f * card.length;
+    // A card that stands for many grows around its place, not out of the crown.
+    card.foot = at_ - 0.5f * crowding_ * card.length * frame_.heading;
+    card.heading = frame_.heading;
+    const int planes = level_ == FoliageLevel::clusters ? look_.cluster_planes : 1;
+    for (int plane = 0; plane < planes; ++plane) {
+      Vec3 left = frame_.left;
+      card.up = frame_.up;
+      if (planes > 1) {
+        const SinCos turn = sin_cos(kPi * (static_cast<float>(plane) + 0.5f) / static_cast<float>(planes) - 0.5f * kPi);
+        left = turn.cos * frame_.left + turn.sin * frame_.up;
+        card.up = turn.cos * frame_.up - turn.sin * frame_.left;
+      }
+      card.left = fold_.cos * left - fold_.sin * card.up, card.right = -fold_.cos * left - fold_.sin * card.up;
+      folded_ ? cards.add_folded(card) : cards.add_flat(card);
     }
   }
-  return sites;
-}
 
-int single_leaves(const LeafLook& leaf) {
-  const float cell = cluster_cell_m(leaf), all = static_cast<float>(leaf.cluster_leaves);
-  float blade = 1e-6f * leaf.length_mm * leaf.width_mm;
-  switch (leaf.outline) {
-    case LeafOutline::needle_spray:
-    case LeafOutline::scale_cord:
-      return leaf.cluster_leaves;  // side shoots, which do not hide each other
-    case LeafOutline::pinnate_compound:
-      blade *= 0.45f;
-      break;
-    case LeafOutline::palmate:
-      blade *= 0.5f;
-      break;
-    default:
-      blade *= 0.66f;
+  /// Up to four sites of the twig that stands: its wood, single leaves, bunches of flowers or fruit.
+  void add_leaves(std::span<const LeafSite* const> sites, CardWriter& cards) const {
+    SmallCards card;
+    card.count = static_cast<int>(sites.size());
+    const auto draws_of = [&](std::size_t k) { return draws(*sites[std::min(k, sites.size() - 1)]); };
+    std::array<RandomStream, 4> random{draws_of(0), draws_of(1), draws_of(2), draws_of(3)};
+
+    // Leaves stand on their twig as the twig on the branch.
+    Float4 sin{}, cos{}, along{}, ease{};
+    Int4 is_leaf{};
+    for (int k = 0; k < card.count; ++k) {
+      const LeafSite& site = *sites[static_cast<std::size_t>(k)];
+      if (!is_single_leaf(site)) continue;
+      RandomStream& own = random[static_cast<std::size_t>(k)];
+      const SinCos azimuth = sum(turned_[static_cast<std::size_t>(site.leaf)], azimuth_);
+      sin[k] = azimuth.sin, cos[k] = azimuth.cos, is_leaf[k] = -1;
+      along[k] = place_on_twig(leaf_, site.leaf, leaves_, own.uniform(0.2f, 0.8f)) * 0.8f * twig_m_;
+      ease[k] = own.uniform(0.6f, 1.2f);
+    }
+    const LeafFrames twig = all4(frame_);
+    const Vec3x4 at = all4(at_), out = all4(out_);
+    const LeafFrames foot = stalk(twig.heading, cos * all4(across_.side) + sin * all4(across_.over), insertion_);
+    const Hanging hang = hanging(foot.heading, leaf_droop_, out);
+    const Vec3x4 toward = unit(mix(hang.normal, out, all4(look_.sun_turn * light_)), all4(kUp));
+    constexpr float kCoarse = 0.4f;  // of so many leaves none is looked at closely enough for more steps
+    const LeafFrames turned = turn_petiole(sunk(foot, hang.heading, ease * look_.bend), toward, ease * look_.twist,
+                                           ease * look_.bend, ease * look_.turn, kCoarse);
+    card.heading = select(is_leaf, turned.heading, twig.heading), card.left = select(is_leaf, turned.left, twig.left);
+    card.up = select(is_leaf, turned.up, twig.up);
+    card.foot = select(is_leaf, at + along * twig.heading, at);
+
+    card.length = card.half_width = all4(0.0f);
+    for (int k = 0; k < card.count; ++k)
+      dress(*sites[static_cast<std::size_t>(k)], random[static_cast<std::size_t>(k)], k, card);
+    // A card that stands for many grows around its place, not out of the crown.
+    card.foot = select(is_leaf, card.foot - 0.5f * crowding_ * card.length * card.heading, card.foot);
+    cards.add(card, out_);
   }
-  // Leaves of the picture are turned away by some degree and smaller toward the shoot's end; thrown at random on the part
-  // of the cell that the twig fills they cover 1 - exp(-area) of it.
-  constexpr float kSeen = 0.68f;
-  const float filled = leaf.cluster == ClusterForm::strings ? 0.35f : 0.62f;
-  const float region = filled * cell * cell, shown = region * (1.0f - exp2(-1.442695f * kSeen * all * blade / region));
-  return std::clamp(static_cast<int>(shown / blade + 0.5f), std::min(3, leaf.cluster_leaves), leaf.cluster_leaves);
-}
+
+  static bool is_single_leaf(const LeafSite& site) { return site.leaf >= 0 && !site.is_bunch(); }
+
+  /// The numbers of a twig or leaf that leaf_sites() has left.
+  RandomStream draws(const LeafSite& site) const {
+    RandomStream random = foliage_stream(in_, site.internode, site.place, site.leaf);
+    for (std::uint64_t used = 0; used < kLeafDraws; ++used) random.bits();
+    return random;
+  }
+
+  /// Size, picture and colour of card k; the place of a bunch.
+  void dress(const LeafSite& site, RandomStream& random, int k, SmallCards& card) const {
+    const bool wood = site.leaf == LeafSite::kTwigWood;
+    if (site.is_bunch()) stand_bunch(site.leaf - LeafSite::kFirstBunch, random, k, card);
+    const Vec3 tint = leaf_tint(random.uniform(-1.0f, 1.0f));
+    const float value = value_ * random.uniform(0.88f, 1.0f);
+    const bool first = random.uniform() < 0.5f;
+    AtlasCell& uv = card.uv[k];
+    if (wood) {
+      uv = wood_cell();
+      card.length[k] = 0.8f * twig_m_, card.half_width[k] = 0.5e-3f * leaf_.twig_mm;
+    } else if (site.is_bunch()) {
+      uv = inset(leaf_cell(0), 1.0f);
+      card.length[k] = bunch_m_, card.half_width[k] = 0.5f * bunch_m_;
+    } else {
+      uv = inset(leaf_cell(bloom_ || !first), narrow_);
+      card.length[k] = leaf_m_ * site.size * growth_ * (blooming_ && folded_leaves_ ? kFoldedLeaf : 1.0f);
+      card.half_width[k] = 0.5f * card.length[k] * narrow_;
+    }
+    card.colour[k] = colour(is_single_leaf(site) ? value * tint : Vec3(value));
+    if (random.uniform() < 0.5f) std::swap(uv.u0, uv.u1);
+  }
+
+  /// Bunches are spread along the twig, hanging down or standing out.
+  void stand_bunch(int number, RandomStream& random, int k, SmallCards& card) const {
+    const Vec3 radial = across_.at(sum(turned_[static_cast<std::size_t>(number)], azimuth_));
+    const float share = (static_cast<float>(number) + random.uniform()) / static_cast<float>(bloom_->bunches);
+    const Vec3 heading = unit(hangs(bloom_->form) ? 0.25f * radial - kUp : 0.6f * radial + 0.8f * kUp, radial);
+    const Vec3 up = unit(radial - glm::dot(radial, heading) * heading, kUp);
+    card.foot.set(k, at_ + (0.25f + 0.7f * share) * 0.8f * twig_m_ * frame_.heading);
+    card.heading.set(k, heading), card.up.set(k, up), card.left.set(k, glm::cross(up, heading));
+  }
+
+  const FoliageInput& in_;
+  const FoliageLook& look_;
+  const LeafLook& leaf_;
+  const FoliageLevel level_;
+  const std::span<const LeafSite> sites_;
+  const std::size_t count_;
+  const bool single_, folded_;  ///< leaves one by one; twigs on folded cards
+  const Bloom* const bloom_;
+  const SinCos insertion_, leaf_droop_, twig_droop_, fold_;
+  const Crown crown_;
+  const CrownLight crown_light_;
+  float twig_m_ = 0, leaf_m_ = 0, bunch_m_ = 0, narrow_ = 1;
+  bool folded_leaves_ = false;  ///< leaves are just opening in their season
+  int leaves_ = 0;
+  std::vector<SinCos> turned_;  ///< of the leaves of a twig, one after the other
+  float growth_ = 1, crowding_ = 0;
+  float tree_warmth_ = 0, tree_value_ = 1, mottle_ = 0;
+
+  // The twig that stands.
+  Vec3 at_{0.0f}, out_ = kUp;
+  LeafFrame frame_{};
+  Across across_{kUp};
+  SinCos azimuth_{0.0f, 1.0f};
+  float light_ = 1, warmth_ = 0, value_ = 1;
+  bool blooming_ = false;
+};
+
+}  // namespace
 
 std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
   switch (level) {
@@ -341,207 +333,11 @@ std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level) {
   return 2;
 }
 
-LeafFrame turn_petiole(LeafFrame f, const Vec3& toward, float twist, float bend, float turn, float fineness) {
-  // Steps small enough that the first-order turn is stable.
-  const int steps = 2 + static_cast<int>(fineness * (2.0f + 2.0f * std::max({twist, bend, turn})));
-  const float ds = 1.0f / static_cast<float>(steps);
-  // Nearly a unit vector to one: a step of Newton's for the inverse root. Exactly at the end.
-  const auto nearly_unit = [](const Vec3& v) { return v * (1.5f - 0.5f * glm::dot(v, v)); };
-  for (int k = 0; k < steps; ++k) {
-    const float ht = glm::dot(f.heading, toward), lt = glm::dot(f.left, toward);
-    // L.(T x (H x T)) = L.H (T.T) - (L.T)(H.T), and L.H = 0.
-    const float about_h = -twist * lt * ds, about_l = bend * ht * ds, about_u = -turn * lt * ht * ds;
-    const Vec3 heading = f.heading - about_l * f.up + about_u * f.left;
-    const Vec3 up = f.up - about_h * f.left + about_l * f.heading;
-    f.heading = nearly_unit(heading);
-    f.up = nearly_unit(up - glm::dot(up, f.heading) * f.heading);
-    f.left = glm::cross(f.up, f.heading);
-  }
-  f.heading = glm::normalize(f.heading);
-  f.up = glm::normalize(f.up - glm::dot(f.up, f.heading) * f.heading);
-  f.left = glm::cross(f.up, f.heading);
-  return f;
-}
-
 TriangleMesh mesh_foliage(const FoliageInput& in, FoliageLevel level, std::span<const LeafSite> sites,
                           std::size_t count) {
-  const growth::Skeleton& s = *in.skeleton;
-  const FoliageLook& look = *in.foliage;
-  const LeafLook& leaf = in.look->leaf;
-  const std::size_t n = sites.size();
-  count = std::min(count, n);
+  count = std::min(count, sites.size());
   if (count == 0) return {};
-  const auto kept = [&, whole = count == n](std::size_t k) { return whole || (k + 1) * count / n != k * count / n; };
-
-  // What is left out adds its area to the others.
-  double all = 0.0, of_kept = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!sites[k].is_leafy()) continue;
-    const double area = static_cast<double>(sites[k].size) * static_cast<double>(sites[k].size);
-    all += area;
-    if (kept(k)) of_kept += area;
-  }
-  const float growth = of_kept > 0.0 ? static_cast<float>(std::sqrt(all / of_kept)) : 1.0f;
-  const float crowding = 1.0f - 1.0f / growth;
-
-  // Sizes and angles of this level.
-  const bool single = level == FoliageLevel::leaves;
-  const bool spring = in.season == Season::spring && !leaf.evergreen;
-  const float season_size = spring ? look.spring_size : 1.0f;
-  constexpr float kFilled = 1.0f - 2.0f * kAtlasMargin;
-  const float twig_m = cluster_cell_m(leaf) * (0.5f + 0.5f * season_size) * kFilled;
-  const float leaf_m = leaf_cell_m(leaf) * season_size * kFilled;
-  const bool needles = is_needle(leaf.outline);
-  const Bloom* bloom = bloom_of(leaf, in.season);
-  const float bunch_m = bloom && single ? bunch_cell_m(*bloom) * kFilled : 0.0f;
-  const int leaves = single ? single_leaves(leaf) : 0;
-  const bool folded_leaves = bloom && bloom->before_leaves && in.season == Season::spring;
-  const float narrow = needles ? 1.0f : std::clamp(1.35e-3f * leaf.width_mm / leaf_cell_m(leaf), 0.1f, 1.0f);
-  const SinCos leaf_droop = sin_cos(radians(leaf.droop_deg)), twig_droop = sin_cos(radians(look.cluster_droop_deg));
-  const SinCos insertion = sin_cos(radians(look.insertion_deg));
-  const bool folded = level == FoliageLevel::clusters && look.cluster_planes == 1;
-  const int planes = level == FoliageLevel::clusters ? look.cluster_planes : 1;
-  // A card of far trees has the area of all planes of the clusters that it stands for.
-  const float of_planes = level == FoliageLevel::cards ? std::sqrt(static_cast<float>(look.cluster_planes)) : 1.0f;
-  const SinCos fold = sin_cos(radians(folded ? look.fold_deg : 0.0f));
-
-  const Crown crown(s, sites);
-  const CrownLight crown_light(s, *in.paths, bearing(in));
-  RandomStream of_tree = stream(in, 0xffffffff, kOfInternode);
-  const float tree_warmth = look.tree_hue * of_tree.uniform(-0.5f, 0.5f);
-  const float tree_value = 1.0f - 0.16f * look.tree_hue * of_tree.uniform();
-  const float mottle = in.season == Season::autumn && !leaf.evergreen ? 0.35f : 0.12f;
-
-  Cards cards(crown, look.soft_normals, single);
-  const std::size_t triangles = count * triangles_per_site(look, level);
-  const std::size_t vertices = folded ? 6 * count : 2 * triangles;
-  cards.mesh.positions.reserve(vertices), cards.mesh.normals.reserve(vertices), cards.mesh.uvs.reserve(vertices);
-  cards.mesh.colours.reserve(vertices), cards.mesh.indices.reserve(3 * triangles);
-
-  constexpr std::uint64_t kAny = 1000;  // numbers of a twig's stream far from those drawn in turn
-  std::uint32_t last_internode = 0xffffffff, last_place = 0;
-  Vec3 twig_at{0.0f}, out = kUp;
-  LeafFrame twig_frame{};
-  RandomStream of_twig = of_tree;
-  float light = 1.0f, twig_warmth = 0.0f, twig_value = 1.0f;
-  bool blooming = false;
-  SinCos twig_azimuth{0.0f, 1.0f};
-  Across twig_across(kUp);
-  std::vector<SinCos> turned;  // of the leaves of a twig, one after the other
-  if (single)
-    for (int number = 0; number < std::max(leaves, bloom ? bloom->bunches : 0); ++number)
-      turned.push_back(sin_cos(radians(look.divergence_deg) * static_cast<float>(number)));
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!kept(k)) continue;
-    const LeafSite& site = sites[k];
-    const std::uint32_t i = site.internode;
-
-    // Where the twig stands on its branch and how it turns; wood turns less than a leaf's stalk. Leaves of one twig
-    // come one after the other.
-    if (i != last_internode || site.place != last_place) {
-      last_internode = i, last_place = site.place;
-      of_twig = stream(in, i, site.place);
-      light = crown_light.at(i);
-      const float weak = 1.0f / (1.0f + 10.0f * std::max(0.0f, s.vigor[i]));
-      twig_warmth = look.vigor_hue * weak * weak + tree_warmth;
-      twig_value = leaf_occlusion(light) * tree_value;
-      blooming = blooms(in, bloom, site, crown_light);
-      const Vec3 from = s.proximal(i), to = s.distal[i];
-      const Vec3 branch = unit(to - from, kUp);
-      const Across across(branch);
-      twig_azimuth = sin_cos(site.azimuth);
-      const Vec3 radial = across.at(twig_azimuth);
-      twig_at = glm::mix(from, to, site.at) + (site.tip ? 0.0f : 0.8f * in.radius[i]) * radial;
-      out = crown.outward(twig_at);
-      const LeafFrame foot = site.tip ? stalk(branch, across.over, {0.0f, 1.0f}) : stalk(branch, radial, insertion);
-      // A card that stands for many looks out of the crown, a piece of its shell.
-      const Hanging hang = hanging(foot.heading, twig_droop, out);
-      const auto any = [&](std::uint64_t number) {
-        return static_cast<float>(of_twig.at(kAny + number) >> 40) * 0x1p-23f - 1.0f;
-      };
-      const float shell = single ? 0.0f : crowding;
-      const Vec3 toward = unit(glm::mix(hang.normal, out, std::max(look.sun_turn * light, shell)) +
-                                   0.7f * shell * Vec3{any(0), any(1), any(2)},
-                               kUp);
-      const float ease = 0.6f * (0.9f + 0.3f * any(3)) * (1.0f + shell);
-      twig_frame = turn_petiole(sunk(foot, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
-                                ease * look.turn);
-      if (single) twig_across = Across(twig_frame.heading);
-    }
-
-    // A single leaf stands on its twig as the twig on the branch.
-    RandomStream random = site.leaf == LeafSite::kWholeTwig ? of_twig : stream(in, i, site.place, site.leaf);
-    for (int skip = 0; skip < 4; ++skip) random.bits();  // what leaf_sites has used
-    LeafFrame frame = twig_frame;
-    Vec3 at = twig_at;
-    const bool wood = site.leaf == LeafSite::kTwigWood;
-    const bool bunch = site.is_bunch();
-    if (bunch) {
-      // Spread along the twig, hanging down or standing out.
-      const Vec3 twig = frame.heading;
-      const int number = site.leaf - LeafSite::kFirstBunch;
-      const Vec3 radial = twig_across.at(sum(turned[static_cast<std::size_t>(number)], twig_azimuth));
-      at += (0.25f + 0.7f * (static_cast<float>(number) + random.uniform()) / static_cast<float>(bloom->bunches)) *
-            0.8f * twig_m * twig;
-      frame = stalk(twig, radial, insertion);
-      const Vec3 to = hangs(bloom->form) ? 0.25f * radial - kUp : 0.6f * radial + 0.8f * kUp;
-      frame.heading = unit(to, radial);
-      frame.up = unit(radial - glm::dot(radial, frame.heading) * frame.heading, kUp);
-      frame.left = glm::cross(frame.up, frame.heading);
-    } else if (single && !wood) {
-      const Vec3 twig = frame.heading;
-      const SinCos azimuth = sum(turned[static_cast<std::size_t>(site.leaf)], twig_azimuth);
-      at += place_on_twig(leaf, site.leaf, leaves, random.uniform(0.2f, 0.8f)) * 0.8f * twig_m * twig;
-      frame = stalk(twig, twig_across.at(azimuth), insertion);
-      const Hanging hang = hanging(frame.heading, leaf_droop, out);
-      const Vec3 toward = unit(glm::mix(hang.normal, out, look.sun_turn * light), kUp);
-      const float ease = random.uniform(0.6f, 1.2f);
-      constexpr float kCoarse = 0.4f;  // of so many leaves none is looked at closely enough for more steps
-      frame = turn_petiole(sunk(frame, hang.heading, ease * look.bend), toward, ease * look.twist, ease * look.bend,
-                           ease * look.turn, kCoarse);
-    }
-
-    // How it looks.
-    const float warmth = twig_warmth + mottle * random.uniform(-1.0f, 1.0f);
-    const float value = twig_value * random.uniform(0.88f, 1.0f);
-    const Vec3 tint = value * (wood || bunch ? Vec3(1.0f) : hue_turned(std::clamp(warmth, -1.0f, 1.0f)));
-    const Rgba8 colour{byte(tint.x), byte(tint.y), byte(tint.z), 255};
-    // In a season with a bloom the atlas' first column shows it, the second is plain.
-    const bool first = random.uniform() < 0.5f;
-    const int variant = bunch ? 0 : bloom ? (blooming && !single ? 0 : 1) : first ? 0 : 1;
-    AtlasCell uv = wood     ? wood_cell()
-                   : bunch  ? inset(leaf_cell(0), 1.0f)
-                   : single ? inset(leaf_cell(variant), narrow)
-                            : inset(cluster_cell(variant), 1.0f);
-    if (random.uniform() < 0.5f) std::swap(uv.u0, uv.u1);
-
-    if (wood) {
-      const float half = 0.5e-3f * leaf.twig_mm;
-      cards.add(at, frame.heading, 0.8f * twig_m, half, frame.left, -frame.left, frame.up, out, uv, colour, false);
-      continue;
-    }
-    if (bunch) {
-      cards.add(at, frame.heading, bunch_m, 0.5f * bunch_m, frame.left, -frame.left, frame.up, out, uv, colour, false);
-      continue;
-    }
-    // A card that stands for many grows around its place, not out of the crown.
-    const float length = (single ? leaf_m : twig_m) * site.size * growth * of_planes *
-                         (single && blooming && folded_leaves ? kFoldedLeaf : 1.0f);
-    const float half_width = 0.5f * length * (single ? narrow : 1.0f);
-    const Vec3 foot = at - 0.5f * crowding * length * frame.heading;
-    for (int plane = 0; plane < planes; ++plane) {
-      LeafFrame f = frame;
-      if (planes > 1) {
-        const SinCos turn = sin_cos(kPi * (static_cast<float>(plane) + 0.5f) / static_cast<float>(planes) - 0.5f * kPi);
-        f.left = turn.cos * frame.left + turn.sin * frame.up;
-        f.up = turn.cos * frame.up - turn.sin * frame.left;
-      }
-      const Vec3 left = fold.cos * f.left - fold.sin * f.up, right = -fold.cos * f.left - fold.sin * f.up;
-      cards.add(foot, f.heading, length, half_width, left, right, f.up, out, uv, colour, folded);
-    }
-  }
-  assert(cards.mesh.triangles() == triangles);
-  return std::move(cards.mesh);
+  return FoliageMesher(in, level, sites, count).mesh();
 }
 
 }  // namespace bosquet::geometry

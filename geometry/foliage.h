@@ -1,16 +1,8 @@
 // Foliage: leaves and leafed twigs as textured cards on the young wood of a skeleton.
 //
-// Source    Longay 2014, C.1.1 (placement on all branches thinner than a threshold), C.1.2 (petiole as a rod stepped
-//           from its base), 5.5 (hue by vigor)
-// Model     H, L, U heading, left and up of the petiole, T the direction that the blade's upper side is drawn to; at
-//           each of its steps the frame turns by
-//             about H (twist)   Omega_H = -e_H L.T
-//             about L (bend)    Omega_L =  e_L H.T
-//             about U (turn)    Omega_U =  e_U L.(T x (H x T))
-//           T is the normal of a blade that hangs `droop` below level away from its twig, drawn toward the open side of
-//           the crown where there is much light
-// Decision  these turns alone let no leaf hang (they turn the blade, not the stalk's foot), so first its weight bends
-//           the stalk toward the direction that hangs so far below level, by bend / (1 + bend) of the way
+// Source    Longay 2014, C.1.1 (placement on all branches thinner than a threshold), C.1.2 (petiole.h), 5.5 (hue by vigor)
+// Model     the side that a blade is drawn to (T of petiole.h) is the normal of a blade that hangs `droop` below level away
+//           from its twig, drawn toward the open side of the crown where there is much light
 // Levels    clusters: one card (folded along its twig) or crossed cards for each leafed twig of 5-15 leaves. leaves:
 //           each of these twigs with a card for every leaf of its own and one for its wood. cards: few, large twig
 //           cards for far trees. All show cells of the leaf atlas (leaf_atlas.h), and stand at the same places
@@ -18,8 +10,6 @@
 //           branch, so old twigs that live on without growing stay green at their ends
 // Decision  a smaller number of cards keeps the area of all: each grows by the area of those left out. They are left
 //           out evenly along the branches, never at random
-// Decision  cards are wound so that their front looks out of the crown, and normals are bent outward likewise:
-//           renderers that turn normals on back faces (glTF, double sided) then shade a crown as a soft volume
 // Bloom     a twig in flower or fruit (bloom.h) shows the atlas' first column: at level clusters and cards the twig with
 //           its bunches, at level leaves its bunches one by one besides the leaves
 // Colour    linear, times the atlas: occlusion by the skeleton's light relative to that of the crown's open side, a turn toward yellow with low vigor, variation
@@ -143,12 +133,5 @@ std::size_t triangles_per_site(const FoliageLook& foliage, FoliageLevel level);
 /// Cards for about `count` of the sites (all: at least sites.size()), spread evenly, with the area of all.
 TriangleMesh mesh_foliage(const FoliageInput& input, FoliageLevel level, std::span<const LeafSite> sites,
                           std::size_t count);
-
-/// The petiole's frame after it has been stepped from its base toward T; all unit vectors.
-struct LeafFrame {
-  Vec3 heading, left, up;
-};
-/// `fineness` 1: a step for each half of the largest e, and four more.
-LeafFrame turn_petiole(LeafFrame frame, const Vec3& toward, float twist, float bend, float turn, float fineness = 1.0f);
 
 }  // namespace bosquet::geometry

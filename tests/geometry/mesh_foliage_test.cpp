@@ -4,6 +4,7 @@
 
 #include "geometry/foliage.h"
 #include "geometry/leaf_atlas.h"
+#include "geometry/petiole.h"
 #include "tests/geometry/mesh_checks.h"
 #include "tests/geometry/mesh_skeletons.h"
 
