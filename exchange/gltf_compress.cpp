@@ -7,11 +7,10 @@
 #include <cstring>
 
 #include "core/parallel.h"
+#include "exchange/gltf_format.h"
 
 namespace bosquet::exchange {
 namespace {
-
-constexpr std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) & ~std::uint64_t{3}; }
 
 std::vector<std::byte> packed_vertices(const std::byte* data, std::size_t count, std::size_t size) {
   std::vector<std::byte> out(meshopt_encodeVertexBufferBound(count, size));
@@ -26,6 +25,15 @@ std::vector<std::byte> octahedral(const std::byte* data, std::size_t count) {
     vectors[i] = static_cast<float>(std::to_integer<std::int8_t>(data[i])) / 127.0f;
   std::vector<std::byte> out(4 * count);
   meshopt_encodeFilterOct(out.data(), count, 4, 8, vectors.data());
+  return out;
+}
+
+// Floats as whole numbers of 24 bits times powers of two, one power for each vector of `size` bytes.
+std::vector<std::byte> exponential(const std::byte* data, std::size_t count, std::size_t size) {
+  std::vector<float> values(count * size / sizeof(float));
+  std::memcpy(values.data(), data, count * size);
+  std::vector<std::byte> out(count * size);
+  meshopt_encodeFilterExp(out.data(), count, size, 24, values.data());
   return out;
 }
 
@@ -55,7 +63,10 @@ void pack_group(const MeshGroup& group, std::span<const std::byte> bytes, Packed
     const std::byte* data = bytes.data() + (view.offset - group.begin);
     const std::uint64_t size = element_bytes(stream), count = view.length / size;
     std::vector<std::byte> filtered;
-    if (is_octahedral(stream)) filtered = octahedral(data, count), data = filtered.data();
+    const std::string_view filter = filter_of(stream);
+    if (filter == "OCTAHEDRAL") filtered = octahedral(data, count);
+    if (filter == "EXPONENTIAL") filtered = exponential(data, count, size);
+    if (!filtered.empty()) data = filtered.data();
     views[s].data = is_index(stream) ? packed_indices(data, count, size) : packed_vertices(data, count, size);
     views[s].data.shrink_to_fit();
     assert(!views[s].data.empty());

@@ -54,7 +54,7 @@ std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uin
 
 MeshOrder best_order(const TriangleMesh& mesh) {
   assert(mesh.indices.size() % 3 == 0);
-  if (is_run_of_pieces(mesh)) return present_order(mesh);
+  if (is_run_of_pieces(mesh)) return by_first_use(mesh.indices, mesh.positions.size());
   std::vector<std::uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCache(indices.data(), mesh.indices.data(), mesh.indices.size(), mesh.positions.size());
   return by_first_use(std::move(indices), mesh.positions.size());

@@ -2,7 +2,8 @@
 //
 // Source    meshoptimizer: vertex cache order (Forsyth's and Sander's ideas), then vertices in order of first use
 // Holds     the same triangles with the same windings; every vertex kept is used by a triangle; same mesh, same result
-// Decision  small pieces without common vertices (cards of leaves) stay in their order, which is as good as any
+// Decision  small pieces without common vertices (cards of leaves) stay in their order, which is as good as any; their
+//           vertices too go in order of first use, which index codecs pack best
 // Cost      about 0.1 s per million triangles, of cards a tenth of that
 #pragma once
 
