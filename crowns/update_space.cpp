@@ -455,7 +455,7 @@ class SpaceUpdater {
     update_.reshaped = reshaped_.where;
     std::set<std::pair<std::int32_t, std::int32_t>> tiles;
     const auto within = [&](IVec2 tile) {
-      const Box2 box{Vec2(tile * kEdge) * options_.voxel_m, Vec2((tile + 1) * kEdge) * options_.voxel_m};
+      const Box2 box{Vec2(tile * kTileEdge) * options_.voxel_m, Vec2((tile + 1) * kTileEdge) * options_.voxel_m};
       return std::any_of(reshaped_.where.begin(), reshaped_.where.end(), [&](const Box2& b) {
         return b.low.x <= box.high.x && b.low.y <= box.high.y && b.high.x >= box.low.x && b.high.y >= box.low.y;
       });
@@ -481,7 +481,7 @@ class SpaceUpdater {
         const std::int32_t a = (*was[t])[static_cast<std::size_t>(c)], b = (*is[t])[static_cast<std::size_t>(c)];
         if (a != b)
           edit.ground_edits.push_back(
-              {asked[t] * kEdge + IVec2{c % kEdge, c / kEdge}, std::min(a, b), std::max(a, b), b < a});
+              {asked[t] * kTileEdge + IVec2{c % kTileEdge, c / kTileEdge}, std::min(a, b), std::max(a, b), b < a});
       }
     }
   }
