@@ -63,8 +63,8 @@ InventoryOptions on(const scene::Georeference& place, DVec2 size) {
   return options;
 }
 
-scene::Document imported(const scene::Document& into, const std::filesystem::path& file,
-                         const TreeImport& import = {}) {
+scene::Document document_with(const scene::Document& into, const std::filesystem::path& file,
+                              const TreeImport& import = {}) {
   auto result = import_trees(into, file, import);
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(result->document);
@@ -132,7 +132,7 @@ TEST(VectorTrees, AnInventoryComesBackWholeThroughAGeoPackage) {
   ASSERT_EQ(before.trees.size(), 300u);
   ASSERT_TRUE(before.problems.empty()) << before.problems.front().reason;
 
-  const scene::Document document = imported(empty_site(size, utm_site()), folder / "survey.csv");
+  const scene::Document document = document_with(empty_site(size, utm_site()), folder / "survey.csv");
   const auto records = tree_records(document);
   const auto written = write_trees(folder / "trees.gpkg", records, document.place, size);
   ASSERT_TRUE(written) << written.error().message;
@@ -157,7 +157,7 @@ TEST(VectorTrees, AnInventoryComesBackWholeThroughAGeoPackage) {
     }
   }
   // A document made of it has the same trees.
-  const scene::Document again = imported(empty_site(size, utm_site()), folder / "trees.gpkg");
+  const scene::Document again = document_with(empty_site(size, utm_site()), folder / "trees.gpkg");
   ASSERT_EQ(again.trees->size(), document.trees->size());
   for (std::size_t i = 0; i < again.trees->size(); ++i) {
     const scene::Tree &a = (*document.trees)[i], &b = (*again.trees)[i];
@@ -171,10 +171,10 @@ TEST(VectorTrees, EveryFormatGivesTheTreesBack) {
   RandomStream stream(32, 7, Purpose::statistics);
   spit(folder / "survey.csv", survey(60, stream));
   const DVec2 size(200, 100);
-  const scene::Document document = imported(empty_site(size, utm_site()), folder / "survey.csv");
+  const scene::Document document = document_with(empty_site(size, utm_site()), folder / "survey.csv");
   for (const char* name : {"trees.gpkg", "trees.shp", "trees.geojson"}) {
     ASSERT_TRUE(write_trees(folder / name, tree_records(document), document.place, size)) << name;
-    const scene::Document again = imported(empty_site(size, utm_site()), folder / name);
+    const scene::Document again = document_with(empty_site(size, utm_site()), folder / name);
     ASSERT_EQ(again.trees->size(), 60u) << name;
     for (std::size_t i = 0; i < 60; ++i) {
       scene::Tree a = (*document.trees)[i], b = (*again.trees)[i];
@@ -194,7 +194,7 @@ TEST(VectorTrees, AnLStaysAnLThroughImportMapsAndSchedule) {
     text += "1," + std::to_string(kCorner.x + p.x) + "," + std::to_string(kCorner.y + p.y) + ",oak\n";
   spit(folder / "l.csv", text);
   const DVec2 size(60, 50);
-  const scene::Document document = imported(empty_site(size, utm_site()), folder / "l.csv");
+  const scene::Document document = document_with(empty_site(size, utm_site()), folder / "l.csv");
   ASSERT_EQ(document.trees->size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ((*document.trees)[i].at, Vec2(letter[i]));
 
@@ -225,7 +225,7 @@ TEST(VectorTrees, OgrinfoReadsWhatIsWritten) {
   RandomStream stream(33, 7, Purpose::statistics);
   spit(folder / "survey.csv", survey(25, stream));
   const DVec2 size(200, 100);
-  const scene::Document document = imported(empty_site(size, utm_site()), folder / "survey.csv");
+  const scene::Document document = document_with(empty_site(size, utm_site()), folder / "survey.csv");
   for (const char* name : {"trees.gpkg", "trees.shp", "trees.geojson"}) {
     ASSERT_TRUE(write_trees(folder / name, tree_records(document), document.place, size));
     int status = 0;
@@ -248,7 +248,7 @@ TEST(VectorTrees, OgrinfoReadsWhatIsWritten) {
 TEST(VectorTrees, WithoutAReferenceSystemPlacesStayMetres) {
   const ScratchFolder folder;
   spit(folder / "t.csv", "x,y,species\n12.5,3,oak\n150,99,birch\n");
-  const scene::Document document = imported(empty_site({200, 100}, {}), folder / "t.csv");
+  const scene::Document document = document_with(empty_site({200, 100}, {}), folder / "t.csv");
   for (const char* name : {"o.gpkg", "o.shp", "o.geojson"}) {
     const auto written = write_trees(folder / name, tree_records(document), document.place, {200, 100});
     ASSERT_TRUE(written) << name;
@@ -319,10 +319,10 @@ TEST(VectorTrees, AProjectedFileTellsASiteWithoutPlaceWhereItIs) {
   const ScratchFolder folder;
   const scene::Document document = [&] {
     spit(folder / "t.csv", "x,y\n512400,5400700\n512500,5400750\n");
-    return imported(empty_site({200, 100}, utm_site()), folder / "t.csv");
+    return document_with(empty_site({200, 100}, utm_site()), folder / "t.csv");
   }();
   ASSERT_TRUE(write_trees(folder / "t.gpkg", tree_records(document), document.place, {200, 100}));
-  const scene::Document fresh = imported({}, folder / "t.gpkg");
+  const scene::Document fresh = document_with({}, folder / "t.gpkg");
   EXPECT_TRUE(same_system(fresh.place.crs_wkt, utm_site().crs_wkt));
   EXPECT_EQ(fresh.place.south_west, DVec2(512400, 5400700));
   EXPECT_EQ(fresh.terrain->size_m(), Vec2(100, 50));
@@ -416,7 +416,7 @@ TEST(VectorTrees, FilesWithoutTreesAreRefusedWithTheReason) {
   spit(folder / "broken.geojson", "{\"type\":\"FeatureCollection\",\"features\":[{");
   EXPECT_FALSE(refusal_of(folder / "broken.geojson").empty());
   spit(folder / "t.csv", "x,y\n1,1\n");
-  const scene::Document document = imported(empty_site({20, 20}, {}), folder / "t.csv");
+  const scene::Document document = document_with(empty_site({20, 20}, {}), folder / "t.csv");
   ASSERT_TRUE(write_trees(folder / "t.gpkg", tree_records(document), {}, {20, 20}));
   InventoryOptions options;
   options.layer = "shrubs";
@@ -462,7 +462,7 @@ TEST(VectorTrees, PointsBlocksAndCirclesOfADrawingAreTrees) {
   EXPECT_NEAR(inventory.trees[2].plan.x, 20, 1e-6);
   EXPECT_NEAR(inventory.trees[2].plan.y, 30, 1e-6);
   EXPECT_NEAR(inventory.trees[2].crown_diameter_m.value_or(0), 5.0f, 0.01f);
-  const scene::Document document = imported(empty_site({50, 50}, {}), folder / "plan.dxf");
+  const scene::Document document = document_with(empty_site({50, 50}, {}), folder / "plan.dxf");
   std::vector<std::string> kinds;
   for (const scene::Tree& tree : *document.trees) kinds.push_back(document.species_of(tree).name);
   EXPECT_EQ(kinds, (std::vector<std::string>{"english_oak", "small_leaved_lime", "silver_birch"}));
@@ -472,7 +472,7 @@ TEST(TreeRecords, TreesToBeRemovedAreListedThoughTheyAreNotGrown) {
   const ScratchFolder folder;
   spit(folder / "t.csv",
        "x,y,species,height_m,status\n4,4,rowan,4,existing\n8,8,rowan,5,fell\n12,4,rowan,3.5,proposed\n");
-  const scene::Document document = imported(empty_site({16, 12}, {}), folder / "t.csv");
+  const scene::Document document = document_with(empty_site({16, 12}, {}), folder / "t.csv");
   const auto grown = scene::grow_scene(document, {}, nullptr);
   ASSERT_TRUE(grown) << grown.error().message;
   const auto records = tree_records(*grown);

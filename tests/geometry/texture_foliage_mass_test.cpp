@@ -7,9 +7,9 @@
 namespace bosquet::geometry {
 namespace {
 
-constexpr int kSide = 512;  // of the mass; the atlas has twice the pixels
+constexpr int kMassSide = 512;  // of the mass; the atlas has twice the pixels
 
-LeafAtlas oak_atlas() { return make_leaf_atlas(species_look("english_oak").leaf, Season::summer, 7, 2 * kSide); }
+LeafAtlas oak_atlas() { return make_leaf_atlas(species_look("english_oak").leaf, Season::summer, 7, 2 * kMassSide); }
 
 double mean_alpha(const Image& image, int x0, int x1, int y0, int y1) {
   double sum = 0;
@@ -29,12 +29,12 @@ TEST(FoliageMass, IsTheSameForAnyNumberOfThreads) {
 TEST(FoliageMass, CoversMuchOfTheCardAndLeavesItsRimClear) {
   const Image mass = make_foliage_mass(oak_atlas(), 3).base_colour;
   for (int cell : {0, 1}) {
-    const int left = cell * kSide / 2;
-    const double cover = mean_alpha(mass, left, left + kSide / 2, 0, kSide / 2);
+    const int left = cell * kMassSide / 2;
+    const double cover = mean_alpha(mass, left, left + kMassSide / 2, 0, kMassSide / 2);
     EXPECT_GT(cover, 0.2);
     EXPECT_LT(cover, 0.75);
-    EXPECT_EQ(mean_alpha(mass, left, left + kSide / 2, 0, 2), 0.0);
-    EXPECT_EQ(mean_alpha(mass, left, left + 2, 0, kSide / 2), 0.0);
+    EXPECT_EQ(mean_alpha(mass, left, left + kMassSide / 2, 0, 2), 0.0);
+    EXPECT_EQ(mean_alpha(mass, left, left + 2, 0, kMassSide / 2), 0.0);
   }
 }
 

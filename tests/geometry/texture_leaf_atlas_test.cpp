@@ -14,7 +14,7 @@
 namespace bosquet::geometry {
 namespace {
 
-constexpr int kSize = 512, kHalf = kSize / 2;
+constexpr int kAtlasSize = 512, kHalf = kAtlasSize / 2;
 const std::vector<std::string> kSpecies{"english_oak", "silver_birch", "norway_spruce", "weeping_willow"};
 // One of each family, twig form and bloom form.
 const std::vector<std::string> kFamilies{"english_oak",       "silver_birch", "norway_spruce", "weeping_willow",
@@ -34,7 +34,7 @@ float alpha(const LeafAtlas& atlas, int x, int y) { return static_cast<float>(at
 // Share of a cell that is opaque.
 float coverage(const LeafAtlas& atlas, const AtlasCell& cell) {
   float sum = 0;
-  const int x0 = static_cast<int>(cell.u0 * kSize), y0 = static_cast<int>(cell.v0 * kSize);
+  const int x0 = static_cast<int>(cell.u0 * kAtlasSize), y0 = static_cast<int>(cell.v0 * kAtlasSize);
   for (int y = y0; y < y0 + kHalf; ++y) {
     for (int x = x0; x < x0 + kHalf; ++x) sum += alpha(atlas, x, y) >= 0.5f ? 1.0f : 0.0f;
   }
@@ -45,7 +45,7 @@ float coverage(const LeafAtlas& atlas, const AtlasCell& cell) {
 Vec3 colour(const LeafAtlas& atlas, const AtlasCell& cell) {
   Vec3 sum{0.0f};
   float count = 0;
-  const int x0 = static_cast<int>(cell.u0 * kSize), y0 = static_cast<int>(cell.v0 * kSize);
+  const int x0 = static_cast<int>(cell.u0 * kAtlasSize), y0 = static_cast<int>(cell.v0 * kAtlasSize);
   for (int y = y0; y < y0 + kHalf; ++y) {
     for (int x = x0; x < x0 + kHalf; ++x) {
       if (alpha(atlas, x, y) >= 0.5f) sum += linear(atlas.base_colour.at(x, y)), count += 1;
@@ -57,7 +57,7 @@ Vec3 colour(const LeafAtlas& atlas, const AtlasCell& cell) {
 TEST_P(Atlas, EachCellHasAClearMarginAndStartsAtTheMiddleOfItsBottomEdge) {
   const auto& [name, season] = GetParam();
   const LeafLook leaf = species_look(name).leaf;
-  const LeafAtlas atlas = make_leaf_atlas(leaf, season, 7, kSize);
+  const LeafAtlas atlas = make_leaf_atlas(leaf, season, 7, kAtlasSize);
   const int margin = static_cast<int>(kAtlasMargin * kHalf);
   ASSERT_GE(margin, 2);
   for (int cell = 0; cell < 4; ++cell) {
@@ -86,7 +86,7 @@ TEST_P(Atlas, EachCellHasAClearMarginAndStartsAtTheMiddleOfItsBottomEdge) {
 TEST_P(Atlas, CoversASensibleShareOfEachCell) {
   const auto& [name, season] = GetParam();
   const LeafLook leaf = species_look(name).leaf;
-  const LeafAtlas atlas = make_leaf_atlas(leaf, season, 7, kSize);
+  const LeafAtlas atlas = make_leaf_atlas(leaf, season, 7, kAtlasSize);
   for (int variant = 0; variant < 2; ++variant) {
     const float cluster = coverage(atlas, cluster_cell(variant)), single = coverage(atlas, leaf_cell(variant));
     if (variant == 0 && bloom_of(leaf, season)) {  // a bunch in place of a leaf
@@ -132,11 +132,11 @@ TEST_P(Atlas, IsTheSameForAnyNumberOfThreadsWithUnitNormals) {
 
 TEST_P(Atlas, ColoursGoOnUnderTransparentPixels) {
   const auto& [name, season] = GetParam();
-  const LeafAtlas atlas = make_leaf_atlas(species_look(name).leaf, season, 7, kSize);
+  const LeafAtlas atlas = make_leaf_atlas(species_look(name).leaf, season, 7, kAtlasSize);
   // A clear pixel beside an opaque one has nearly its colour; without dilation it would be black.
   double opaque = 0, beside = 0;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x + 2 < kSize; ++x) {
+  for (int y = 0; y < kAtlasSize; ++y) {
+    for (int x = 0; x + 2 < kAtlasSize; ++x) {
       if (alpha(atlas, x, y) < 0.9f || alpha(atlas, x + 2, y) > 0.0f) continue;
       opaque += luminance(linear(atlas.base_colour.at(x, y)));
       beside += luminance(linear(atlas.base_colour.at(x + 2, y)));
@@ -149,7 +149,7 @@ TEST_P(Atlas, ColoursGoOnUnderTransparentPixels) {
 TEST(LeafAtlas, SingleLeavesAreAsLargeAsTheSpeciesSays) {
   for (const char* name : {"english_oak", "silver_birch", "weeping_willow"}) {
     const LeafLook leaf = species_look(name).leaf;
-    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 9, kSize);
+    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 9, kAtlasSize);
     const float mm = 1000.0f * leaf_cell_m(leaf) / kHalf;  // a pixel
     for (int variant = 0; variant < 2; ++variant) {
       int low_x = kHalf, high_x = 0, top = kHalf;
@@ -170,7 +170,7 @@ TEST(LeafAtlas, SingleLeavesAreAsLargeAsTheSpeciesSays) {
 TEST(LeafAtlas, SummerLeavesHaveTheSpeciesColourAsAlbedo) {
   for (const std::string& name : kSpecies) {
     const LeafLook leaf = species_look(name).leaf;
-    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 7, kSize);
+    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 7, kAtlasSize);
     const float given = kLeafAlbedo * luminance(linear_from_srgb(leaf.summer));
     for (int variant = bloom_of(leaf, Season::summer) ? 1 : 0; variant < 2; ++variant) {
       const Vec3 single = colour(atlas, leaf_cell(variant));
@@ -185,7 +185,9 @@ TEST(LeafAtlas, SummerLeavesHaveTheSpeciesColourAsAlbedo) {
 TEST(LeafAtlas, AutumnTurnsLeavesTowardRedAndSpringLightens) {
   for (const char* name : {"english_oak", "silver_birch", "weeping_willow"}) {
     const LeafLook leaf = species_look(name).leaf;
-    const auto seen = [&](Season season) { return colour(make_leaf_atlas(leaf, season, 7, kSize), cluster_cell(0)); };
+    const auto seen = [&](Season season) {
+      return colour(make_leaf_atlas(leaf, season, 7, kAtlasSize), cluster_cell(0));
+    };
     const Vec3 spring = seen(Season::spring), summer = seen(Season::summer), autumn = seen(Season::autumn);
     EXPECT_GT(luminance(spring), 1.2f * luminance(summer)) << name;
     EXPECT_GT(autumn.r / autumn.g, 1.3f * summer.r / summer.g) << name;
@@ -194,7 +196,7 @@ TEST(LeafAtlas, AutumnTurnsLeavesTowardRedAndSpringLightens) {
 
 TEST(LeafAtlas, AnEvergreenKeepsItsSummerDressInWinterAndFlushesInSpring) {
   const LeafLook spruce = species_look("norway_spruce").leaf;
-  const auto cluster = [&](Season season) { return make_leaf_atlas(spruce, season, 7, kSize); };
+  const auto cluster = [&](Season season) { return make_leaf_atlas(spruce, season, 7, kAtlasSize); };
   const LeafAtlas winter = cluster(Season::bare), spring = cluster(Season::spring), summer = cluster(Season::summer);
   EXPECT_NEAR(coverage(winter, cluster_cell(0)), coverage(summer, cluster_cell(0)), 0.02f);
   EXPECT_GT(luminance(colour(spring, cluster_cell(0))), 1.15f * luminance(colour(summer, cluster_cell(0))));
@@ -206,7 +208,7 @@ TEST(LeafAtlas, TheFourSpeciesDiffer) {
   for (const std::string& name : kSpecies) {
     const LeafLook leaf = species_look(name).leaf;
     const float cell = 1000.0f * leaf_cell_m(leaf);
-    slender.push_back(coverage(make_leaf_atlas(leaf, Season::summer, 7, kSize), leaf_cell(0)) * cell * cell /
+    slender.push_back(coverage(make_leaf_atlas(leaf, Season::summer, 7, kAtlasSize), leaf_cell(0)) * cell * cell /
                       (leaf.length_mm * leaf.length_mm));
   }
   EXPECT_GT(slender[0], 0.3f);               // oak
@@ -246,7 +248,7 @@ TEST(LeafAtlas, EveryBloomPaintsInsideItsCellInItsOwnColour) {
     leaf.flower.form = static_cast<BloomForm>(form);
     leaf.flower.from = leaf.flower.to = Season::summer;
     leaf.flower.colour = leaf.flower.heart = srgb(0xD02020);
-    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 3, kSize);
+    const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 3, kAtlasSize);
     EXPECT_GT(coverage(atlas, leaf_cell(0)), 0.02f) << kBloomFormNames[form];
     const Vec3 bunch = colour(atlas, leaf_cell(0)), twig = colour(atlas, cluster_cell(0)),
                plain = colour(atlas, cluster_cell(1));
@@ -292,7 +294,7 @@ TEST(LeafAtlas, EveryOutlineFamilyAndTwigFormPaints) {
       if (is_needle(leaf.outline) != bears_needles(leaf.cluster)) continue;  // needles stand on sprays, blades do not
       if (leaf.outline == LeafOutline::needle_spray) leaf.length_mm = 20.0f, leaf.width_mm = 1.0f;
       if (leaf.outline == LeafOutline::scale_cord) leaf.length_mm = 2.0f, leaf.width_mm = 1.6f;
-      const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 3, kSize);
+      const LeafAtlas atlas = make_leaf_atlas(leaf, Season::summer, 3, kAtlasSize);
       // Leaflets and cords leave most of their cell empty.
       EXPECT_GT(coverage(atlas, cluster_cell(0)), 0.06f) << kLeafOutlineNames[outline] << kClusterFormNames[form];
       EXPECT_GT(coverage(atlas, leaf_cell(0)), 0.06f) << kLeafOutlineNames[outline] << kClusterFormNames[form];

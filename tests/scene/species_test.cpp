@@ -15,7 +15,7 @@
 namespace bosquet::scene {
 namespace {
 
-std::vector<std::shared_ptr<const Species>> builtins() {
+std::vector<std::shared_ptr<const Species>> every_species() {
   std::vector<std::shared_ptr<const Species>> all;
   for (const std::string& name : builtin_species_names()) {
     auto species = builtin_species(name);
@@ -26,14 +26,14 @@ std::vector<std::shared_ptr<const Species>> builtins() {
 }
 
 std::string matched(std::string_view name, NameMatch* how = nullptr) {
-  const auto all = builtins();
+  const auto all = every_species();
   const SpeciesMatch match = match_species(name, all, 0);
   if (how) *how = match.how;
   return all[match.species]->name;
 }
 
 TEST(Species, EveryBuiltInFileIsReadAndChecked) {
-  const auto all = builtins();
+  const auto all = every_species();
   ASSERT_GE(all.size(), 4u);
   for (const auto& s : all) {
     EXPECT_FALSE(s->botanical_name.empty()) << s->name;
@@ -156,7 +156,7 @@ TEST(SpeciesNames, AnUnknownSpeciesFallsBackToGenusThenLeafTypeThenDefault) {
 }
 
 TEST(SpeciesNames, ASpeciesMadeFromAnotherIsMeantOnlyByItsOwnName) {
-  auto all = builtins();
+  auto all = every_species();
   auto street = *builtin_species("english_oak");
   street.name = "street_oak", street.derived = true;
   all.insert(all.begin(), std::make_shared<const Species>(street));
