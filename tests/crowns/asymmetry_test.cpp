@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kStep = 1.0f / 64.0f;
 
-CrownSpace divide(const std::vector<Claimant>& trees, float side_m) {
+CrownSpace divide_flat(const std::vector<Claimant>& trees, float side_m) {
   auto space = divide_space(trees, flat(side_m), SpaceOptions{});
   EXPECT_TRUE(space);
   return *std::move(space);
@@ -49,16 +49,16 @@ double displacement(const CrownSpace& space, std::size_t t) {
 }
 
 TEST(Asymmetry, ALoneTreeHasNone) {
-  EXPECT_EQ(neighbourhood_asymmetry(divide({tree(1, {15, 15}, 8, 10)}, 30), {}), std::vector{Vec3(0.0f)});
+  EXPECT_EQ(neighbourhood_asymmetry(divide_flat({tree(1, {15, 15}, 8, 10)}, 30), {}), std::vector{Vec3(0.0f)});
   // Nor have two that stand farther apart than 1.5 crown widths of the wider one.
-  const auto apart = neighbourhood_asymmetry(divide({tree(1, {5, 5}, 4, 10), tree(2, {12.6f, 5}, 5, 10)}, 30), {});
+  const auto apart = neighbourhood_asymmetry(divide_flat({tree(1, {5, 5}, 4, 10), tree(2, {12.6f, 5}, 5, 10)}, 30), {});
   EXPECT_EQ(apart, (std::vector{Vec3(0.0f), Vec3(0.0f)}));
-  EXPECT_TRUE(neighbourhood_asymmetry(divide({}, 30), {}).empty());
+  EXPECT_TRUE(neighbourhood_asymmetry(divide_flat({}, 30), {}).empty());
 }
 
 TEST(Asymmetry, APairFollowsEquations63And64) {
   const std::vector trees{tree(1, {15, 15}, 6, 10), tree(2, {17, 18}, 9, 12)};
-  const auto space = divide(trees, 40);
+  const auto space = divide_flat(trees, 40);
   const auto v = neighbourhood_asymmetry(space, uncapped());
   const double distance = std::sqrt(13.0), radius = 1.5 * 9.0;
   for (std::size_t i : {0u, 1u}) {
@@ -86,7 +86,7 @@ TEST(Asymmetry, VectorsAtAClustersRimPointOutwardAndNearlyVanishInItsMiddle) {
         trees.push_back(tree(static_cast<std::int32_t>(trees.size()) + 1, middle + Vec2{east, north}, 6, 10));
     }
   ASSERT_GT(trees.size(), 60u);
-  const auto v = neighbourhood_asymmetry(divide(trees, 60), uncapped());
+  const auto v = neighbourhood_asymmetry(divide_flat(trees, 60), uncapped());
   double rim = 0, inner = 0;
   int rims = 0, inners = 0;
   for (std::size_t t = 0; t < trees.size(); ++t) {
@@ -108,7 +108,8 @@ TEST(Asymmetry, VectorsAtAClustersRimPointOutwardAndNearlyVanishInItsMiddle) {
 }
 
 TEST(Asymmetry, LargerNeighboursPushHarderAndAreHardlyPushedThemselves) {
-  const auto v = neighbourhood_asymmetry(divide({tree(1, {15, 15}, 10, 16), tree(2, {19, 15}, 6, 10)}, 40), uncapped());
+  const auto v =
+      neighbourhood_asymmetry(divide_flat({tree(1, {15, 15}, 10, 16), tree(2, {19, 15}, 6, 10)}, 40), uncapped());
   EXPECT_LT(v[0].x, 0.0f);
   EXPECT_GT(v[1].x, 0.0f);
   EXPECT_GT(v[1].x, 2.0f * -v[0].x);
@@ -116,7 +117,7 @@ TEST(Asymmetry, LargerNeighboursPushHarderAndAreHardlyPushedThemselves) {
 
 TEST(Asymmetry, ItIsCappedForASmallTreeBesideAGiant) {
   // At the edge of the giant's reach, so that the small tree has room to yield to: 16 times the area would be V = 8.
-  const auto space = divide({tree(1, {20, 20}, 20, 25), tree(2, {34, 20}, 5, 8)}, 60);
+  const auto space = divide_flat({tree(1, {20, 20}, 20, 25), tree(2, {34, 20}, 5, 8)}, 60);
   EXPECT_GT(neighbourhood_asymmetry(space, uncapped())[1].x, 4.0f);
   EXPECT_EQ(neighbourhood_asymmetry(space, {})[1], Vec3(1.0f, 0.0f, 0.0f));
 }
@@ -124,7 +125,7 @@ TEST(Asymmetry, ItIsCappedForASmallTreeBesideAGiant) {
 TEST(Asymmetry, CoincidentBasesPartInOppositeDirections) {
   const std::vector trees{tree(1, {15, 15}, 8, 10), tree(2, {15, 15}, 8, 10)};
   AsymmetryOptions o = uncapped();
-  const auto v = neighbourhood_asymmetry(divide(trees, 30), o);
+  const auto v = neighbourhood_asymmetry(divide_flat(trees, 30), o);
   for (const Vec3& each : v) {
     EXPECT_TRUE(std::isfinite(each.x) && std::isfinite(each.z));
     EXPECT_GT(glm::length(each), 4 * kStep);
@@ -135,17 +136,17 @@ TEST(Asymmetry, CoincidentBasesPartInOppositeDirections) {
 TEST(Asymmetry, ItIsTheSameForAnyOrderOfTreesAndNumberOfThreads) {
   auto trees = clustered(6, 100, 40.0f, 7.0f, 12.0f, 4.0f);
   trees[50].base = trees[51].base;
-  const auto expected = neighbourhood_asymmetry(divide(trees, 40), {});
+  const auto expected = neighbourhood_asymmetry(divide_flat(trees, 40), {});
   for (int threads : {1, 8})
-    run_with_threads(threads, [&] { EXPECT_EQ(neighbourhood_asymmetry(divide(trees, 40), {}), expected); });
+    run_with_threads(threads, [&] { EXPECT_EQ(neighbourhood_asymmetry(divide_flat(trees, 40), {}), expected); });
   std::reverse(trees.begin(), trees.end());
-  auto reversed = neighbourhood_asymmetry(divide(trees, 40), {});
+  auto reversed = neighbourhood_asymmetry(divide_flat(trees, 40), {});
   std::reverse(reversed.begin(), reversed.end());
   EXPECT_EQ(reversed, expected);
 }
 
 TEST(Asymmetry, ComponentsAreMultiplesOfASixtyFourth) {
-  for (const Vec3& v : neighbourhood_asymmetry(divide(clustered(2, 50, 30.0f, 7.0f, 12.0f, 4.0f), 30), {})) {
+  for (const Vec3& v : neighbourhood_asymmetry(divide_flat(clustered(2, 50, 30.0f, 7.0f, 12.0f, 4.0f), 30), {})) {
     EXPECT_EQ(v.x * 64.0f, std::round(v.x * 64.0f));
     EXPECT_EQ(v.z * 64.0f, std::round(v.z * 64.0f));
   }

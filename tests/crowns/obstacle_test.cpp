@@ -129,7 +129,7 @@ TEST(Obstacle, WhatLiesOutsideTheBoxAskedForIsLeftOut) {
   }
 }
 
-CrownSpace divide(const std::vector<Claimant>& trees, const Standing& standing, float side_m = 30) {
+CrownSpace divide_around(const std::vector<Claimant>& trees, const Standing& standing, float side_m = 30) {
   auto space = divide_space(trees, standing, flat(side_m), SpaceOptions{});
   EXPECT_TRUE(space) << (space ? "" : space.error().message);
   return space ? *std::move(space) : CrownSpace();
@@ -138,7 +138,7 @@ CrownSpace divide(const std::vector<Claimant>& trees, const Standing& standing, 
 TEST(ObstacleSpace, CrownsDoNotEnterAnObstacleAndPassOverIt) {
   // A house 5 m high beside a tree of 12 m.
   Standing standing{{building(-1, {17, 5}, {27, 25}, 0, 5, kFine)}, {}};
-  const auto space = divide({tree(1, {15, 15}, 8, 12)}, standing);
+  const auto space = divide_around({tree(1, {15, 15}, 8, 12)}, standing);
   for_each_voxel(space, [&](IVec3 v, std::int32_t owner) {
     const bool inside = v.x >= 68 && v.x < 108 && v.z >= 20 && v.z < 100 && v.y >= 0 && v.y < 5;
     if (inside) {
@@ -155,7 +155,7 @@ TEST(ObstacleSpace, CrownsDoNotEnterAnObstacleAndPassOverIt) {
 
 TEST(ObstacleSpace, BehindAWallACrownComesRoundItsEnd) {
   Standing standing{{building(-1, {17, 15}, {17.3f, 30}, 0, 20, kFine)}, {}};
-  const auto space = divide({tree(1, {15, 15.5f}, 10, 12)}, standing);
+  const auto space = divide_around({tree(1, {15, 15.5f}, 10, 12)}, standing);
   EXPECT_EQ(space.owner_at(to_world({18.0f, 14}, 5)), 0);
   EXPECT_EQ(space.owner_at(to_world({18.5f, 16}, 5)), 0);  // round the corner, in the wall's shadow
 }
@@ -163,7 +163,7 @@ TEST(ObstacleSpace, BehindAWallACrownComesRoundItsEnd) {
 TEST(ObstacleSpace, ATreeInAnObstacleKeepsTheVoxelsOverItsBaseAndIsNamed) {
   Standing standing{{building(-3, {10, 10}, {20, 20}, 0, 6, kFine)}, {}};
   const std::vector trees{tree(7, {15, 15}, 8, 10), tree(8, {5, 5}, 8, 10)};
-  const auto space = divide(trees, standing);
+  const auto space = divide_around(trees, standing);
   EXPECT_EQ(space.claimed_voxels(0), 10u);
   const auto found = problems(space, {30, 30});
   ASSERT_EQ(found.size(), 1u);
@@ -175,7 +175,7 @@ TEST(ObstacleSpace, ATreeInAnObstacleKeepsTheVoxelsOverItsBaseAndIsNamed) {
 TEST(ObstacleSpace, UnderARoofATreeEndsThere) {
   // A carport: nothing below 3 m.
   Standing standing{{building(-1, {10, 10}, {20, 20}, 3, 4, kFine)}, {}};
-  const auto space = divide({tree(7, {15, 15}, 8, 10)}, standing);
+  const auto space = divide_around({tree(7, {15, 15}, 8, 10)}, standing);
   EXPECT_EQ(space.shares(0).back().layer, 2);
   EXPECT_TRUE(problems(space, {30, 30}).empty());
 }
@@ -184,7 +184,7 @@ TEST(ObstacleSpace, BasesInTrunksAndObstaclesOffTheSiteAreNamed) {
   Standing standing{{building(-1, {40, 40}, {50, 50}, 0, 6, kFine), building(-2, {-4, 4}, {2, 9}, 0, 6, kFine)}, {}};
   Claimant giant = tree(3, {15, 15}, 8, 12);
   giant.shape.trunk_width_m = 1.2f;
-  const auto space = divide({tree(1, {15.4f, 15}, 8, 10), tree(2, {17, 15}, 8, 10), giant}, standing);
+  const auto space = divide_around({tree(1, {15.4f, 15}, 8, 10), tree(2, {17, 15}, 8, 10), giant}, standing);
   const auto found = problems(space, {30, 30});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].kind, SpaceProblem::Kind::base_in_trunk);
@@ -204,7 +204,7 @@ TEST(ObstacleSpace, IdsAboveZeroOrTwiceAreRefused) {
 
 TEST(ObstacleSpace, GridsAndSlicesHoldNegativeIds) {
   Standing standing{{building(-4, {17, 5}, {27, 25}, 0, 5, kFine)}, {}};
-  const auto space = divide({tree(1, {15, 15}, 8, 12)}, standing);
+  const auto space = divide_around({tree(1, {15, 15}, 8, 12)}, standing);
   const TreeGrid grid = build_grid(space);
   EXPECT_EQ(grid.id({80, 2, 60}), -4);
   EXPECT_EQ(grid.id({60, 2, 60}), 1);
@@ -217,7 +217,7 @@ TEST(HeroSpace, AHeroTakesTheVoxelsItsWoodPassesThroughAndNoOthers) {
   const auto wood = std::make_shared<const std::vector<Segment>>(std::vector<Segment>{
       {to_world({12, 15}, 0), to_world({12, 15}, 8), 0.4f}, {to_world({12, 15}, 6), to_world({18, 16}, 9), 0.05f}});
   const std::vector trees{tree(1, {15, 15}, 8, 12)};
-  const auto with = divide(trees, {{}, {{-2, "hero", wood}}}), without = divide(trees, {});
+  const auto with = divide_around(trees, {{}, {{-2, "hero", wood}}}), without = divide_around(trees, {});
   std::size_t taken = 0;
   for_each_voxel(with, [&](IVec3 v, std::int32_t owner) {
     const Vec3 centre = to_world((Vec2(v.x, v.z) + 0.5f) * 0.25f, static_cast<float>(v.y) + 0.5f);
@@ -241,7 +241,8 @@ TEST(HeroSpace, AHeroTakesTheVoxelsItsWoodPassesThroughAndNoOthers) {
 
 TEST(AsymmetryObstacle, AFacadePressesATreeAwayFromIt) {
   Standing standing{{building(-1, {0, 16}, {30, 24}, 0, 12, kFine)}, {}};
-  const auto v = neighbourhood_asymmetry(divide({tree(1, {15, 13}, 8, 12), tree(2, {4, 2}, 8, 12)}, standing), {});
+  const auto v =
+      neighbourhood_asymmetry(divide_around({tree(1, {15, 13}, 8, 12), tree(2, {4, 2}, 8, 12)}, standing), {});
   EXPECT_GT(v[0].z, 0.3f);  // south, away from the house in the north
   EXPECT_LT(std::fabs(v[0].x), 0.1f);
   EXPECT_LT(glm::length(v[1]), glm::length(v[0]));
@@ -249,7 +250,7 @@ TEST(AsymmetryObstacle, AFacadePressesATreeAwayFromIt) {
 
 TEST(AsymmetryObstacle, AWallBelowTheCrownDoesNotPress) {
   Standing standing{{building(-1, {0, 16}, {30, 17}, 0, 1.5f, kFine)}, {}};
-  EXPECT_EQ(neighbourhood_asymmetry(divide({tree(1, {15, 13}, 8, 12)}, standing), {})[0], Vec3(0.0f));
+  EXPECT_EQ(neighbourhood_asymmetry(divide_around({tree(1, {15, 13}, 8, 12)}, standing), {})[0], Vec3(0.0f));
 }
 
 TEST(AsymmetryObstacle, ItFollowsEquation63WithTheNearestFootprintPoint) {
@@ -257,7 +258,7 @@ TEST(AsymmetryObstacle, ItFollowsEquation63WithTheNearestFootprintPoint) {
   AsymmetryOptions o;
   o.asymmetry_max = o.area_ratio_cap = kUnlimited;
   const std::vector trees{tree(1, {15, 15}, 8, 10)};
-  const auto space = divide(trees, standing);
+  const auto space = divide_around(trees, standing);
   // The region's displacement, from its voxels.
   double sum = 0, n = 0;
   for (const LayerShare& s : space.shares(0)) {
