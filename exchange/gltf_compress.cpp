@@ -28,15 +28,6 @@ std::vector<std::byte> octahedral(const std::byte* data, std::size_t count) {
   return out;
 }
 
-// Floats as whole numbers of 24 bits times powers of two, one power for each vector of `size` bytes.
-std::vector<std::byte> exponential(const std::byte* data, std::size_t count, std::size_t size) {
-  std::vector<float> values(count * size / sizeof(float));
-  std::memcpy(values.data(), data, count * size);
-  std::vector<std::byte> out(count * size);
-  meshopt_encodeFilterExp(out.data(), count, size, 24, values.data());
-  return out;
-}
-
 std::vector<std::byte> packed_indices(const std::byte* data, std::size_t count, std::size_t size) {
   std::vector<unsigned int> indices(count);
   unsigned int most = 0;
@@ -63,10 +54,7 @@ void pack_group(const MeshGroup& group, std::span<const std::byte> bytes, Packed
     const std::byte* data = bytes.data() + (view.offset - group.begin);
     const std::uint64_t size = element_bytes(stream), count = view.length / size;
     std::vector<std::byte> filtered;
-    const std::string_view filter = filter_of(stream);
-    if (filter == "OCTAHEDRAL") filtered = octahedral(data, count);
-    if (filter == "EXPONENTIAL") filtered = exponential(data, count, size);
-    if (!filtered.empty()) data = filtered.data();
+    if (is_octahedral(stream)) filtered = octahedral(data, count), data = filtered.data();
     views[s].data = is_index(stream) ? packed_indices(data, count, size) : packed_vertices(data, count, size);
     views[s].data.shrink_to_fit();
     assert(!views[s].data.empty());

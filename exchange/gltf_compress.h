@@ -2,9 +2,7 @@
 //
 // Model     each view of each group is packed on its own: vertex and instance data as ATTRIBUTES, indices as TRIANGLES
 //           (the codec keeps the order of triangles and their winding but may turn their corners)
-// Filter    normals and tangents go through the octahedral map of 8 bits: two numbers instead of three, at most a degree
-//           off. Texture coordinates in floats, which layouts snap to 1/1024 of a tile, become whole numbers with an
-//           exponent, exact up to 16,384 tiles
+// Filter    normals and tangents go through the octahedral map of 8 bits: two numbers instead of three, at most a degree off
 // Holds     the same bytes for any number of threads
 // Cost      one group unpacked and everything packed are held; about 250 MB a second and core
 #pragma once
@@ -13,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "exchange/gltf_meshes.h"
@@ -29,12 +26,8 @@ struct PackedViews {
   std::uint64_t bytes = 0;
 };
 
-/// The extension's name of the filter that a kind is packed through, empty for none.
-constexpr std::string_view filter_of(Stream s) {
-  return s == Stream::normal_byte || s == Stream::tangent_byte ? "OCTAHEDRAL"
-         : s == Stream::uv_float                               ? "EXPONENTIAL"
-                                                               : "";
-}
+/// Kinds that are packed through the octahedral filter.
+constexpr bool is_octahedral(Stream s) { return s == Stream::normal_byte || s == Stream::tangent_byte; }
 
 /// Packs one group, whose bytes encode_group made; groups in order.
 void pack_group(const MeshGroup& group, std::span<const std::byte> bytes, PackedViews& packed);

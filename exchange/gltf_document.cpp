@@ -158,8 +158,7 @@ class Document {
       v["extensions"]["EXT_meshopt_compression"] = {
           {"buffer", 0},        {"byteOffset", packed.offset}, {"byteLength", packed.data.size()},
           {"byteStride", size}, {"count", length / size},      {"mode", is_index(stream) ? "TRIANGLES" : "ATTRIBUTES"}};
-      if (const auto filter = filter_of(stream); !filter.empty())
-        v["extensions"]["EXT_meshopt_compression"]["filter"] = filter;
+      if (is_octahedral(stream)) v["extensions"]["EXT_meshopt_compression"]["filter"] = "OCTAHEDRAL";
     }
     return v;
   }

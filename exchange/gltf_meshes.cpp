@@ -30,6 +30,10 @@ Error broken(std::string what) { return cannot_finish(std::move(what)); }
 std::uint16_t normalized_short(float v) { return static_cast<std::uint16_t>(v * 65535.0f + 0.5f); }
 
 // Of a number in [-1, 1].
+// The lower byte is the same nearly everywhere, so it packs into nothing.
+std::uint16_t coarse_short(float v) {
+  return static_cast<std::uint16_t>(std::min(std::floor(v * 256.0f + 0.5f) * 256.0f, 65535.0f));
+}
 std::int8_t signed_byte(float v) {
   return static_cast<std::int8_t>(std::clamp(std::floor(v * 127.0f + 0.5f), -127.0f, 127.0f));
 }
@@ -39,9 +43,10 @@ std::int16_t signed_short(float v) {
 
 // To a whole number of 1/per: the low bits of the mantissa become zero and compress away.
 float snapped(float v, float per) { return std::floor(v * per + 0.5f) / per; }
+// Thirty-two tiles on, all coordinates of a tree's bark have one exponent and whole bytes of mantissa stay zero.
 Vec2 snapped_uv(Vec2 uv) {
-  constexpr float kPerTile = 1024.0f;
-  return {snapped(uv.x, kPerTile), snapped(uv.y, kPerTile)};
+  constexpr float kPerTile = 1024.0f, kTilesOn = 32.0f;
+  return {kTilesOn + snapped(uv.x, kPerTile), kTilesOn + snapped(uv.y, kPerTile)};
 }
 // Half a millimetre; no sizes below a thousandth of their own.
 Vec3 snapped_place(const Vec3& p) {
@@ -86,6 +91,7 @@ void put_mesh(const MeshFacts& facts, bool reorder, const auto& put) {
     put(Stream::uv_float, n, [&](std::size_t k) { return mesh.uvs[at[k]]; });
   put(Stream::uv_short, n, [&](std::size_t k) {
     const Vec2 uv = mesh.uvs[at[k]];
+    if (facts.coarse_uv) return std::array{coarse_short(uv.x), coarse_short(uv.y)};
     return std::array{normalized_short(uv.x), normalized_short(uv.y)};
   });
   put(Stream::colour, n, [&](std::size_t k) { return mesh.colours[at[k]]; });

@@ -59,6 +59,7 @@ struct MeshFacts {
   float step = 1.0f;           ///< of quantized positions, metres
   bool textured = false;       ///< some part draws it with a texture
   bool bumpy = false;          ///< some part draws it with a normal map
+  bool coarse_uv = false;      ///< quantized texture coordinates stand on 1/256 of the image
   std::uint64_t vertices = 0;  ///< used by triangles
   Box3 bounds;                 ///< of the used ones
   bool uv_in_unit_square = false;

@@ -14,8 +14,8 @@
 namespace bosquet::exchange {
 namespace {
 
-// A millimetre is enough for wood and leaves, if the mesh is not small itself.
-constexpr float kPackedStep_m = 1e-3f, kLeastPackedQuanta = 2000.0f;
+// A millimetre and a half is enough for wood and leaves, if the mesh is not small itself.
+constexpr float kPackedStep_m = 1.5e-3f, kLeastPackedQuanta = 2000.0f;
 
 // Parts of all shown levels, with the node that shows them.
 template <class Visit>
@@ -134,6 +134,8 @@ Result<GltfStock> take_stock(const scene::Model& model, const GltfOptions& optio
     const auto uses = [&](std::size_t m) {
       stock.meshes[m].textured |= textured(material, options);
       stock.meshes[m].bumpy |= uses_normal_map(material, options.leaf_normal_maps);
+      stock.meshes[m].coarse_uv =
+          options.compression == Compression::meshopt && material.surface == scene::Surface::leaf;
     };
     if (const auto instanced = stock.cards.find(part.mesh.get()); instanced != stock.cards.end()) {
       if (instanced->second.empty()) {

@@ -86,7 +86,7 @@ function addTriangles(node, world, soup) {
             c: [0, 1, 2].map((k) => tint[k] * instance.colour[k]),
           };
         });
-        soup.push({ corners, tolerance, instanced, material: primitive.getMaterial()?.getName() ?? '' });
+        soup.push({ corners, tolerance, instanced, whole, material: primitive.getMaterial()?.getName() ?? '' });
       }
     }
   }
@@ -110,12 +110,14 @@ function triangles(document) {
 }
 
 const near = (a, b, most) => a.every((x, k) => Math.abs(x - b[k]) <= most);
+// Images repeat; packed leaves stand on 1/256 of theirs.
+const sameTexel = (a, b, most) => a.every((x, k) => Math.abs(x - b[k] - Math.round(x - b[k])) <= most);
 const kCosine = Math.cos(2 * Math.PI / 180);
 
 function sameCorner(a, b, other) {
   if (!near(a.p, b.p, other.tolerance)) return false;
   if (!other.instanced && a.n && (!b.n || a.n[0] * b.n[0] + a.n[1] * b.n[1] + a.n[2] * b.n[2] < kCosine)) return false;
-  return (!a.uv || (b.uv !== null && near(a.uv, b.uv, 1 / 900))) && near(a.c, b.c, 1.5 / 255);
+  return (!a.uv || (b.uv !== null && sameTexel(a.uv, b.uv, other.whole ? 1 / 510 : 1 / 900))) && near(a.c, b.c, 1.5 / 255);
 }
 
 // Each triangle of `plain` with one of `other` that no other one has; the corners may be turned.
