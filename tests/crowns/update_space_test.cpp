@@ -219,10 +219,10 @@ TEST(SpaceUpdate, WithoutLimitOfReachToo) {
 }
 
 TEST(SpaceUpdate, WhereTheGroundIsReshapedToo) {
-  for (std::uint64_t seed = 51; seed <= 53; ++seed) play(seed, seed % 2, seed > 51, coarse(), 40, 1);
+  for (std::uint64_t seed = 51; seed <= 52; ++seed) play(seed, seed % 2, seed > 51, coarse(), 30, 1);
   // Over four tiles and what overhangs them.
-  play(61, true, true, coarse(0.25f), 10, 2);
-  play(62, false, false, unlimited(0.4f, 2.0f), 10, 1);
+  play(61, true, true, coarse(0.25f), 6, 2);
+  play(62, false, false, unlimited(0.4f, 2.0f), 8, 1);
 }
 
 TEST(SpaceUpdate, ReshapedGroundTouchesOnlyTheTilesAroundIt) {
