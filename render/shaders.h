@@ -36,7 +36,7 @@ struct FrameBlock {
   Vec4 over_height;  ///< base, 1 / scale, height of the land around, 1 if that land is drawn
   Vec4 land;         ///< tint of plain land around the site, metres to the woods around
   Vec4 ground_box;   ///< world low x, low z, high x, high z of the ground
-  Vec4 water;        ///< level, 1 if it flows on beyond the ground, 1 if `mirror` holds the scene mirrored at the level w
+  Vec4 water;        ///< level, 1 if it flows on beyond the ground, 1 if `mirror` holds the scene mirrored at level w
   Vec4 target;       ///< width and height of the whole picture in pixels, then where this tile begins in it
   Vec4 lens;         ///< half width and half height of the whole picture at depth 1
   Vec4 shading;      ///< x: 0 natural, 1 flat, 2 silhouette; y: samples
