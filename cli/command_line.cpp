@@ -158,9 +158,10 @@ ParsedLine parse_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
   app.require_subcommand(0, 1);
 
-  CLI::App* make = app.add_subcommand("make",
-                                      "Grows the scene of a recipe and writes it: .glb .gltf .png .plan.png .svg .dxf .csv .species.csv "
-                                      ".gpkg .geojson .shp .vdb .tree.json .bosquet .toml");
+  CLI::App* make = app.add_subcommand(
+      "make",
+      "Grows the scene of a recipe and writes it: .glb .gltf .png .plan.png .svg .dxf .csv .species.csv "
+      ".gpkg .geojson .shp .vdb .tree.json .bosquet .toml");
   make->alias("export");
   make->add_option("recipe", o.file, "Recipe (.toml) or project (.bosquet)")->required()->option_text("FILE");
   make->add_option("-o,--output", o.outputs, "Output; may be given several times")
@@ -196,7 +197,8 @@ ParsedLine parse_command_line(int argc, char** argv) {
                  "Judges a glTF file: bounds, instances, levels, packed data; exit status 1 if bad");
   info->callback([&] { o.command = Command::info; });
 
-  CLI::App* add = app.add_subcommand("import", "Adds ground, trees or obstacles to a project or recipe, which is made when missing");
+  CLI::App* add = app.add_subcommand(
+      "import", "Adds ground, trees or obstacles to a project or recipe, which is made when missing");
   add->add_option("project", o.file, "Project (.bosquet) or recipe (.toml)")->required()->option_text("PROJECT");
   add->add_option("--dem", o.dem, "Elevation raster (GeoTIFF, PNG, ...)")->option_text("FILE");
   add->add_option("--trees", o.inventory, "Tree inventory (.csv .geojson .gpkg .shp .dxf)")->option_text("FILE");
@@ -211,7 +213,8 @@ ParsedLine parse_command_line(int argc, char** argv) {
   recover->callback([&, recover] {
     const bool list = o.recovery.empty() || o.recovery == "list";
     if (list == !o.outputs.empty())
-      throw CLI::ValidationError("recover", list ? "-o needs the NAME of what is to be recovered" : "NAME needs -o FILE");
+      throw CLI::ValidationError("recover",
+                                 list ? "-o needs the NAME of what is to be recovered" : "NAME needs -o FILE");
     o.command = list ? Command::recover_list : Command::recover;
   });
 
@@ -264,10 +267,20 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App* window = app.add_subcommand("ui", "The window; also what bosquet alone opens");
   window->add_option("file", o.file, "Project (.bosquet) or recipe (.toml)")->option_text("FILE");
   window->add_option("--script", o.script, "Replays the events of a file, then closes")->option_text("FILE");
-  window->add_option("--screenshot", o.screenshot, "Saves the window's last frame as a picture")->option_text("OUT.png");
+  window->add_option("--screenshot", o.screenshot, "Saves the window's last frame as a picture")
+      ->option_text("OUT.png");
   window->add_option("--report", o.report, "Writes the seconds of its frames as JSON")->option_text("FILE.json");
+  window->add_option("--state", o.window_state, "Keeps a file that says what the window shows, as JSON")
+      ->option_text("FILE.json");
+  window->add_option("--scale", o.window_scale, "Size of text and buttons, 0.5 to 4; default: the screen's")
+      ->check(within(0.5, 4.0))
+      ->option_text("X");
+  add_size(window, o, "Pixels of the window, default 1440x900");
   add_threads(window, o);
-  window->callback([&] { o.command = Command::ui; });
+  window->callback([&, window] {
+    o.command = Command::ui;
+    if (window->count("--size") == 0) o.width = 1440, o.height = 900;
+  });
 
   try {
     app.parse(argc, argv);

@@ -63,7 +63,8 @@ struct Options {
   std::string recovery;  ///< name of what is recovered
 
   // Window.
-  std::filesystem::path script, screenshot;
+  std::filesystem::path script, screenshot, window_state;
+  float window_scale = 0;  ///< 0: the screen's
 
   // Calibration and gallery.
   std::vector<float> ages;

@@ -15,6 +15,9 @@ Result<void> run_ui(const Options& options) {
   run.script = options.script;
   run.screenshot = options.screenshot;
   run.report = options.report;
+  run.state = options.window_state;
+  run.scale = options.window_scale;
+  run.size = {options.width, options.height};
   run.threads = options.threads;
   return ui::run_window(run);
 }

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 
 #include "core/parallel.h"
-#include "render/alpha_mips.h"
 #include "render/framing.h"
 
 namespace bosquet::render {
@@ -114,64 +111,6 @@ Shader shader_of(const scene::Material& material) {
   return Shader::solid;
 }
 
-// Textures, each image once per use; their levels are made in parallel, then uploaded.
-class TextureLoader {
- public:
-  explicit TextureLoader(const std::vector<scene::Material>& materials) {
-    for (const scene::Material& m : materials) {
-      want(m.base_colour, TextureKind::colour, cutoff(m), !m.mask);
-      want(m.normal, TextureKind::normal, 0.0f, !m.mask);
-    }
-  }
-
-  void load(std::vector<GlTexture>& textures) {
-    std::vector<std::vector<Image>> chains(uses_.size());
-    parallel_for(uses_.size(), [&](std::size_t i) {
-      const auto& [image, kind, cutoff, anisotropic] = uses_[i];
-      chains[i] = mip_chain(*image, kind, cutoff);
-    });
-    for (std::size_t i = 0; i < uses_.size(); ++i) {
-      const auto& [image, kind, cutoff, anisotropic] = uses_[i];
-      textures.push_back(upload_chain(chains[i], kind == TextureKind::colour, anisotropic));
-      names_.push_back(textures.back().name());
-      chains[i] = {};
-    }
-  }
-
-  GpuMaterial material(const scene::Material& m) const {
-    GpuMaterial out;
-    out.shader = shader_of(m);
-    out.base_colour = name({m.base_colour.get(), TextureKind::colour, cutoff(m), !m.mask});
-    out.normal = name({m.normal.get(), TextureKind::normal, 0.0f, !m.mask});
-    out.base_factor = m.base_factor;
-    out.roughness = std::clamp(m.roughness, 0.05f, 1.0f);
-    out.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
-    out.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
-    out.double_sided = m.double_sided;
-    return out;
-  }
-
- private:
-  // Image, what it holds, where its alpha is cut, whether it is seen at grazing angles.
-  using Use = std::tuple<const Image*, TextureKind, float, bool>;
-
-  static float cutoff(const scene::Material& m) { return m.mask ? m.alpha_cutoff : 0.0f; }
-
-  void want(const std::shared_ptr<const Image>& image, TextureKind kind, float cutoff, bool anisotropic) {
-    if (!image || image->empty()) return;
-    const Use use{image.get(), kind, cutoff, anisotropic};
-    if (index_of_.try_emplace(use, uses_.size()).second) uses_.push_back(use);
-  }
-  GLuint name(const Use& use) const {
-    const auto found = index_of_.find(use);
-    return found == index_of_.end() ? 0 : names_[found->second];
-  }
-
-  std::map<Use, std::size_t> index_of_;
-  std::vector<Use> uses_;
-  std::vector<GLuint> names_;
-};
-
 void forget_gl_errors() {
   while (glGetError() != GL_NO_ERROR) {
   }
@@ -190,20 +129,36 @@ Result<GpuModel> GpuModel::make(const scene::Model& model) {
   GpuModel out;
   out.sun = model.sun;
   out.box = bounds(model);
-  if (auto added = out.add_materials(model.materials); !added) return added.error();
+  if (auto added = out.add_materials(make_levels(model.materials)); !added) return added.error();
   for (const scene::Node& node : model.nodes) out.add(node, 0);
   if (auto set = out.set_overhead(make_overhead(model, out.box)); !set) return set.error();
   return out;
 }
 
-Result<std::size_t> GpuModel::add_materials(const std::vector<scene::Material>& added) {
+Result<std::size_t> GpuModel::add_materials(const MaterialLevels& added) {
   forget_gl_errors();
-  TextureLoader loader(added);
-  loader.load(textures);
+  std::vector<GLuint> names;
+  for (std::size_t i = 0; i < added.uses.size(); ++i) {
+    const TextureUse& use = added.uses[i];
+    textures.push_back(upload_chain(added.chains[i], use.kind == TextureKind::colour, use.anisotropic));
+    names.push_back(textures.back().name());
+  }
+  const auto name = [&](const TextureUse& use) -> GLuint {
+    const auto found = std::find(added.uses.begin(), added.uses.end(), use);
+    return found == added.uses.end() ? 0 : names[static_cast<std::size_t>(found - added.uses.begin())];
+  };
   const std::size_t first = materials.size();
-  for (const scene::Material& m : added) {
-    materials.push_back(loader.material(m));
-    if (materials.back().shader == Shader::ground && !ground_material) ground_material = materials.size() - 1;
+  for (const scene::Material& m : added.materials) {
+    GpuMaterial& out = materials.emplace_back();
+    out.shader = shader_of(m);
+    out.base_colour = name(colour_use(m));
+    out.normal = name(normal_use(m));
+    out.base_factor = m.base_factor;
+    out.roughness = std::clamp(m.roughness, 0.05f, 1.0f);
+    out.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
+    out.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
+    out.double_sided = m.double_sided;
+    if (out.shader == Shader::ground && !ground_material) ground_material = materials.size() - 1;
   }
   if (auto fits = check_memory(); !fits) return fits.error();
   return first;

@@ -16,6 +16,7 @@
 #include "core/vec.h"
 #include "render/gl.h"
 #include "render/overhead.h"
+#include "render/texture_levels.h"
 #include "scene/model.h"
 
 namespace bosquet::render {
@@ -70,7 +71,7 @@ struct GpuModel {
   /// Copies a model to graphics memory.
   static Result<GpuModel> make(const scene::Model& model);
 
-  Result<std::size_t> add_materials(const std::vector<scene::Material>& added);
+  Result<std::size_t> add_materials(const MaterialLevels& added);
   /// Sets the node with a key above 0.
   Result<void> put(std::uint64_t key, const scene::Node& node);
   void remove(std::uint64_t key);

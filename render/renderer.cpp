@@ -175,7 +175,7 @@ Result<void> Renderer::upload(const scene::Model& model) {
   return {};
 }
 
-Result<std::size_t> Renderer::add_materials(const std::vector<scene::Material>& materials) {
+Result<std::size_t> Renderer::add_materials(const MaterialLevels& materials) {
   return state_->model.add_materials(materials);
 }
 

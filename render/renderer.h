@@ -21,6 +21,7 @@
 #include "core/image.h"
 #include "core/result.h"
 #include "render/overhead.h"
+#include "render/texture_levels.h"
 #include "render/view.h"
 #include "scene/model.h"
 
@@ -49,8 +50,8 @@ class Renderer {
   // For a scene that changes while it is looked at: nodes of its own beside those of the uploaded model. A mesh that
   // several of them share is copied once.
 
-  /// Adds materials behind those that are there; the index of the first one.
-  Result<std::size_t> add_materials(const std::vector<scene::Material>& materials);
+  /// Adds materials (render/texture_levels.h) behind those that are there; the index of the first one.
+  Result<std::size_t> add_materials(const MaterialLevels& materials);
   /// Sets the node with a key, in place of an earlier one with it; its materials must be there.
   Result<void> put(std::uint64_t key, const scene::Node& node);
   /// Takes the node with a key away, if there is one.

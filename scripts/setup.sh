@@ -10,7 +10,7 @@ build=(g++ cmake ninja-build pkg-config ccache
   libglfw3-dev libimgui-dev
   libegl-dev libopengl-dev libgl-dev libgl1-mesa-dri
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev)
-test=(chromium gdal-bin)
+test=(chromium gdal-bin xvfb xdotool)
 
 wanted=("${build[@]}")
 if [ "${1:-build}" = nightly ]; then

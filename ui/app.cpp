@@ -13,12 +13,14 @@
 namespace bosquet::ui {
 namespace {
 
-constexpr float kTopBar = 46, kLeftBar = 196, kRightBar = 300, kStatusBar = 28;
-constexpr double kMoving_s = 0.25;
+constexpr float kTopBar = 46, kSecondRow = 36, kOneRow = 1420, kLeftBar = 196, kRightBar = 300, kStatusBar = 28;
+constexpr double kMoving_s = 0.25, kRests_s = 0.6;
 constexpr float kRadiusStep = 1.15f;
 constexpr float kWalk_m = 2.5f;  ///< a second
 constexpr double kToast_s = 6;
 constexpr float kYearsPerSecond = 6;
+constexpr int kMostPasses = 200;
+constexpr double kPass_s = 1e-3;
 
 }  // namespace
 
@@ -27,8 +29,10 @@ Result<std::unique_ptr<App>> App::create(const AppOptions& options) {
   auto view = SceneView::create();
   if (!view) return view.error();
   app->view_.emplace(std::move(*view));
+  app->thumbnails_.emplace();
   app->session_ = std::make_unique<Session>(options.session);
   app->dark_ = options.dark;
+  app->marking_ = options.marks;
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
@@ -42,11 +46,10 @@ Result<std::unique_ptr<App>> App::create(const AppOptions& options) {
     if (auto opened = app->session_->open(options.file); !opened) return opened.error();
     app->recent_.push_back(options.file);
   } else {
-    std::error_code ec;
-    if (options.example.empty() || !std::filesystem::exists(options.example, ec) ||
-        !app->session_->open(options.example)) {
-      if (auto park = make_template("River bank")) app->session_->start(std::move(*park), "Untitled");
-    }
+    auto park = make_example();
+    if (!park) return park.error();
+    app->session_->start(std::move(*park), "Park");
+    app->session_->rig.look({"", to_world({36, -14}, 15), to_world({74, 46}, 5), 46});
     const std::filesystem::path folder =
         options.session.recovery_folder.empty() ? scene::recovery_folder() : options.session.recovery_folder;
     if (options.session.journal)
@@ -68,6 +71,23 @@ App::~App() {
 std::string App::title() const {
   return fmt::format("{}{}{} - Bosquet", session_->unsaved() ? "*" : "", session_->name(),
                      session_->read_only().empty() ? "" : " (read-only)");
+}
+
+std::string App::question() const {
+  if (chooser_.open()) return "file";
+  switch (ask_) {
+    case Ask::close:
+    case Ask::open:
+    case Ask::start:
+      return "unsaved";
+    case Ask::recover:
+      return "recover";
+    case Ask::many_trees:
+      return "many trees";
+    case Ask::nothing:
+      break;
+  }
+  return show_export_ ? "export" : "";
 }
 
 bool App::settled() const { return session_->pipeline().idle() && view_->settled() && !export_.running(); }
@@ -275,7 +295,7 @@ void App::route(std::span<const Event> events, double time_s) {
     if (!camera_drag_) {
       ToolEvent tool_event;
       event.at = in_view;
-      event.time_s = time_s;
+      if (raw.time_s <= 0) event.time_s = time_s;
       tool_event.event = event;
       const SightRay ray = session_->rig.ray(in_view, view_size_);
       tool_event.ground = ground_hit(*session_->document()->terrain, ray);
@@ -366,24 +386,53 @@ void App::frame(const FrameInput& in) {
   }
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(in.size.x), static_cast<float>(in.size.y)};
-  io.DeltaTime = static_cast<float>(passed_s);
-  input_.feed(in.events);
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
   for (const std::filesystem::path& file : in.dropped) open_file(file);
   if (in.close) run_guarded([this] { ended_ = true; }, Ask::close);
+  // What happened since the last frame may be more than one pass of ImGui can see; only the last pass is drawn.
+  // One more shows what a click led to.
+  pass(in, in.events, passed_s);
+  bool shows_all =
+      std::all_of(in.events.begin(), in.events.end(), [](const Event& e) { return e.kind == Event::Kind::move; });
+  for (int more = 0; (input_.waiting() || !shows_all) && more < kMostPasses; ++more) {
+    shows_all = !input_.waiting();
+    ImGui::EndFrame();
+    pass(in, {}, kPass_s);
+  }
 
+  if (time_s_ - moved_s_ > kRests_s) session_->look_from_here();
+  thumbnails_->collect();
+  view_->update(*session_);
+  view_->draw(*session_, IVec2(view_size_), time_s_ - moved_s_ < kMoving_s, in.time_s);
+  ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(view_->texture())),
+                                           {view_low_.x, view_low_.y},
+                                           {view_low_.x + view_size_.x, view_low_.y + view_size_.y}, {0, 1}, {1, 0});
+  draw_overlays();
+  ImGui::Render();
+  render::clear_framebuffer(in.framebuffer, in.size, Vec3(0.12f));
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+// Events and panels of one pass.
+void App::pass(const FrameInput& in, std::span<const Event> fresh, double passed_s) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = static_cast<float>(passed_s);
+  const std::vector<Event> events = input_.feed(fresh);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+
+  marks_.clear();
   Layout layout;
   layout.scale = scale_;
   layout.screen = {in.size.x, in.size.y};
-  layout.top = kTopBar * scale_, layout.left = kLeftBar * scale_, layout.right = kRightBar * scale_,
-  layout.bottom = kStatusBar * scale_;
+  layout.two_rows = layout.screen.x < kOneRow * scale_;
+  layout.top = (layout.two_rows ? kTopBar + kSecondRow : kTopBar) * scale_, layout.left = kLeftBar * scale_,
+  layout.right = kRightBar * scale_, layout.bottom = kStatusBar * scale_;
   Panels::menu(*this, layout);
   view_low_ = {layout.left, layout.menu + layout.top};
   view_size_ = glm::max(layout.screen - view_low_ - Vec2(layout.right, layout.bottom), Vec2(16.0f));
 
   // Events before the panels are drawn, so that what they show is what is.
-  route(in.events, in.time_s);
+  route(events, in.time_s);
   session_->tick(in.time_s, view_size_);
   if (held_ == Button::left && session_->tool().busy()) moved_s_ = in.time_s;
   const float step = kWalk_m * static_cast<float>(passed_s) * (session_->rig.walking() ? 1.0f : 6.0f);
@@ -418,16 +467,6 @@ void App::frame(const FrameInput& in) {
   if (!session_->message.empty()) say(std::exchange(session_->message, {}));
   if (session_->asked_trees() > 0) ask_ = Ask::many_trees;
   Panels::toast(*this, layout);
-
-  view_->update(*session_);
-  view_->draw(*session_, IVec2(view_size_), time_s_ - moved_s_ < kMoving_s, in.time_s);
-  ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(view_->texture())),
-                                           {view_low_.x, view_low_.y},
-                                           {view_low_.x + view_size_.x, view_low_.y + view_size_.y}, {0, 1}, {1, 0});
-  draw_overlays();
-  ImGui::Render();
-  render::clear_framebuffer(in.framebuffer, in.size, Vec3(0.12f));
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
 }  // namespace bosquet::ui

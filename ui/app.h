@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,16 +23,17 @@
 #include "ui/scene_view.h"
 #include "ui/session.h"
 #include "ui/theme.h"
+#include "ui/thumbnails.h"
 #include "ui/widgets/schematic_tree.h"
 
 namespace bosquet::ui {
 
 struct AppOptions {
   Session::Options session;
-  std::filesystem::path file;     ///< opened at the start; empty: recovery is offered, else the example park
-  std::filesystem::path example;  ///< recipe of the example park; empty or missing: a template
-  bool first_run = false;         ///< shows the overlay
+  std::filesystem::path file;  ///< opened at the start; empty: the example park, and recovery is offered
+  bool first_run = false;      ///< shows the overlay
   bool dark = true;
+  bool marks = false;  ///< notes where widgets lie
 };
 
 struct FrameInput {
@@ -52,8 +54,9 @@ class App {
   void frame(const FrameInput& input);
   /// The person agreed to end, or nothing was unsaved.
   bool ended() const { return ended_; }
-  /// Nothing grows, is drawn or waited for.
+  /// Nothing grows, is drawn or waited for; the species' pictures may still come.
   bool settled() const;
+  bool has_thumbnails() const { return thumbnails_->settled(); }
 
   /// Writes the scene, as the export dialog would.
   void export_to(const std::filesystem::path& file);
@@ -65,6 +68,14 @@ class App {
   Vec2 view_size() const { return view_size_; }
   std::string title() const;
 
+  // For programs that drive the window (ui/state_file.h).
+  const std::string& message() const { return toast_; }
+  int overlay_step() const { return overlay_step_; }
+  /// What is asked in the middle of the window, in a word; empty when nothing is.
+  std::string question() const;
+  /// Where widgets lie, by name: x, y, width, height; only when AppOptions::marks asks for it.
+  const std::map<std::string, Vec4>& marks() const { return marks_; }
+
  private:
   App() = default;
   friend struct Panels;
@@ -72,6 +83,7 @@ class App {
   // What is asked in the middle of the window.
   enum class Ask { nothing, close, open, start, recover, many_trees };
 
+  void pass(const FrameInput& in, std::span<const Event> fresh, double passed_s);
   void route(std::span<const Event> events, double time_s);
   void to_camera(const Event& event);
   bool shortcut(const Event& event);
@@ -82,6 +94,7 @@ class App {
 
   std::unique_ptr<Session> session_;
   std::optional<SceneView> view_;
+  std::optional<Thumbnails> thumbnails_;
   Input input_;
   Fonts fonts_;
   float scale_ = 0;
@@ -102,7 +115,7 @@ class App {
   bool show_history_ = false, show_export_ = false, show_shortcuts_ = false;
   int overlay_step_ = -1;  ///< of the first-run overlay; below 0: not shown
   bool playing_ = false;
-  float year_ = 0;
+  float year_ = 100;
   bool all_grown_ = true;
 
   FileChooser chooser_;
@@ -111,6 +124,8 @@ class App {
   SchematicTree schematic_;
   std::uint64_t inspector_drag_ = 0;
   std::vector<std::filesystem::path> recent_;
+  bool marking_ = false;
+  std::map<std::string, Vec4> marks_;
 };
 
 }  // namespace bosquet::ui

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace bosquet::ui {
 namespace {
@@ -61,24 +62,27 @@ void Input::set(const Event& event) {
   }
 }
 
-void Input::feed(std::span<const Event> events) {
-  std::vector<Event> now = std::move(held_back_);
-  held_back_.clear();
+std::vector<Event> Input::feed(std::span<const Event> events) {
+  std::vector<Event> now = std::exchange(held_back_, {});
   now.insert(now.end(), events.begin(), events.end());
   std::vector<Event> turned;
+  bool button_turned = false;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const Event& e = now[i];
-    const bool press = e.kind == Event::Kind::press || e.kind == Event::Kind::key_press;
-    const bool release = e.kind == Event::Kind::release || e.kind == Event::Kind::key_release;
-    const auto same = [&](const Event& t) { return t.button == e.button && t.key == e.key; };
-    // What changes a second time in this frame, and all that comes after it, waits for the next one.
-    if ((press || release) && std::any_of(turned.begin(), turned.end(), same)) {
+    const bool button = e.kind == Event::Kind::press || e.kind == Event::Kind::release;
+    const bool key = e.kind == Event::Kind::key_press || e.kind == Event::Kind::key_release;
+    const bool pointer = button || e.kind == Event::Kind::move || e.kind == Event::Kind::scroll;
+    const bool again = key && std::any_of(turned.begin(), turned.end(), [&](const Event& t) { return t.key == e.key; });
+    if (again || (button_turned && pointer)) {
       held_back_.assign(now.begin() + static_cast<std::ptrdiff_t>(i), now.end());
-      return;
+      now.resize(i);
+      return now;
     }
-    if (press || release) turned.push_back(e);
+    button_turned |= button;
+    if (key) turned.push_back(e);
     set(e);
   }
+  return now;
 }
 
 }  // namespace bosquet::ui

@@ -7,12 +7,14 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "core/stopwatch.h"
 #include "exchange/file_output.h"
 #include "exchange/image_file.h"
 #include "ui/app.h"
 #include "ui/script_player.h"
+#include "ui/state_file.h"
 #include "ui/window.h"
 
 namespace bosquet::ui {
@@ -20,6 +22,7 @@ namespace {
 
 constexpr double kIdleWait_s = 0.05;
 constexpr double kSettleAtMost_s = 60;
+constexpr std::size_t kSlowest = 12;  ///< frames that the report names
 
 double thread_seconds() {
   timespec t{};
@@ -45,13 +48,15 @@ Result<void> run_window(const RunOptions& options) {
     if (!read) return read.error();
     script = std::move(*read);
   }
-  auto window = Window::open({});
+  WindowOptions window_options;
+  window_options.size = options.size;
+  auto window = Window::open(window_options);
   if (!window) return window.error();
 
   AppOptions app_options;
   app_options.file = options.file;
-  app_options.example = options.example;
   app_options.session.threads = options.threads;
+  app_options.marks = !options.state.empty();
   std::error_code ec;
   const bool by_hand = !script && options.screenshot.empty();
   app_options.first_run = by_hand && options.file.empty() && !std::filesystem::exists(first_run_mark(), ec);
@@ -62,9 +67,12 @@ Result<void> run_window(const RunOptions& options) {
   std::optional<ScriptPlayer> player;
   const auto screenshot = [&] { return render::read_framebuffer(0, window->size()); };
   if (script) player.emplace(std::move(*script), screenshot);
-  std::vector<double> cpu, wall;
+  std::vector<double> cpu, wall, cpu_growing, wall_growing;
+  std::vector<int> lines;
   std::string title;
   int calm = 0;
+  std::optional<StateFile> state;
+  if (!options.state.empty()) state.emplace(options.state);
   while (!(*app)->ended()) {
     const bool busy = player || !(*app)->settled();
     std::vector<Event> events = window->events(busy ? 0.0 : kIdleWait_s);
@@ -79,7 +87,7 @@ Result<void> run_window(const RunOptions& options) {
     const std::vector<std::filesystem::path> dropped = window->dropped();
     FrameInput input;
     input.size = window->size();
-    input.scale = window->scale();
+    input.scale = options.scale > 0 ? options.scale : window->scale();
     input.time_s = now;
     input.events = events;
     input.dropped = dropped;
@@ -88,10 +96,16 @@ Result<void> run_window(const RunOptions& options) {
     (*app)->frame(input);
     cpu.push_back(thread_seconds() - cpu_before);
     window->show_frame();
+    if (state) state->write(**app);
     wall.push_back(watch.seconds());
+    lines.push_back(player ? player->line() : 0);
+    if (!(*app)->session().pipeline().idle()) {
+      cpu_growing.push_back(cpu.back());
+      wall_growing.push_back(wall.back());
+    }
     if (const std::string now_title = (*app)->title(); now_title != title) window->set_title(title = now_title);
     if (!player && !options.screenshot.empty()) {
-      calm = (*app)->settled() ? calm + 1 : 0;
+      calm = (*app)->settled() && (*app)->has_thumbnails() ? calm + 1 : 0;
       if (calm > 3 || now > kSettleAtMost_s) break;
     }
   }
@@ -100,9 +114,20 @@ Result<void> run_window(const RunOptions& options) {
     if (auto written = exchange::write_image(options.screenshot, screenshot()); !written) return written;
   if (!options.report.empty()) {
     nlohmann::ordered_json json;
+    const auto of = [](const std::vector<double>& seconds) {
+      return nlohmann::ordered_json{{"median", 1e3 * share(seconds, 0.5)},
+                                    {"p99", 1e3 * share(seconds, 0.99)},
+                                    {"most", 1e3 * share(seconds, 1.0)}};
+    };
     json["frames"] = cpu.size();
-    json["cpu_ms"] = {{"median", 1e3 * share(cpu, 0.5)}, {"p99", 1e3 * share(cpu, 0.99)}};
-    json["frame_ms"] = {{"median", 1e3 * share(wall, 0.5)}, {"p99", 1e3 * share(wall, 0.99)}};
+    json["cpu_ms"] = of(cpu);
+    json["frame_ms"] = of(wall);
+    json["growing"] = {{"frames", cpu_growing.size()}, {"cpu_ms", of(cpu_growing)}, {"frame_ms", of(wall_growing)}};
+    std::vector<std::size_t> order(cpu.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cpu[a] > cpu[b]; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(kSlowest, order.size()); ++i)
+      json["slowest"].push_back({{"frame", order[i]}, {"script_line", lines[order[i]]}, {"cpu_ms", 1e3 * cpu[order[i]]}});
     json["trees"] = (*app)->session().document()->trees->size();
     std::ofstream out(options.report);
     out << json.dump(2) << "\n";

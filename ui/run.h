@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/result.h"
+#include "core/vec.h"
 
 namespace bosquet::ui {
 
@@ -13,8 +14,10 @@ struct RunOptions {
   std::filesystem::path script;      ///< replayed, then the window closes
   std::filesystem::path screenshot;  ///< of the last frame, when it is settled
   std::filesystem::path report;      ///< JSON: seconds a frame, and what they were spent on
-  std::filesystem::path example;     ///< recipe that the first start shows
+  std::filesystem::path state;       ///< JSON: what the window shows, whenever that changes (ui/state_file.h)
   int threads = 0;
+  IVec2 size{1440, 900};  ///< of the window at first
+  float scale = 0;        ///< of text and buttons; 0: the screen's
 };
 
 /// Opens the window and stays until it is closed. Errors of kind `input` for files that cannot be opened and scripts that

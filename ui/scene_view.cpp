@@ -58,13 +58,13 @@ TriangleMesh shape_mesh(const crowns::RepresentativeShape& shape, float scale_he
   };
   const float half = 0.5f * scale_height * shape.crown_height_m(), middle = scale_height * shape.trunk_height_m + half;
   const float trunk = 0.5f * scale_width * shape.trunk_width_m, crown = 0.5f * scale_width * shape.crown_width_m;
-  lathe({{trunk, 0.0f}, {trunk, middle}}, Rgba8(92, 72, 54, 255));
+  lathe({{trunk, 0.0f}, {trunk, middle}}, Rgba8(27, 17, 9, 255));
   std::vector<Vec2> profile;
   for (int r = 0; r <= kRings; ++r) {
     const SinCos a = sin_cos(kPi * static_cast<float>(r) / kRings);
     profile.push_back({std::max(crown * a.sin, 1e-3f), middle - half * a.cos});
   }
-  lathe(profile, Rgba8(96, 130, 70, 255));
+  lathe(profile, Rgba8(34, 62, 20, 255));
   return mesh;
 }
 
@@ -111,7 +111,9 @@ std::optional<std::size_t> SceneView::materials_of(const scene::Document& docume
   if (const auto there = species_materials_.find(kind->name); there != species_materials_.end()) return there->second;
   auto& made = species_made_[kind->name];
   if (!made.valid())
-    made = std::async(std::launch::async, [kind] { return scene::species_materials(*kind, geometry::Season::summer); });
+    made = std::async(std::launch::async, [kind] {
+      return render::make_levels(scene::species_materials(*kind, geometry::Season::summer));
+    });
   if (!ready(made)) return {};
   auto first = renderer_->add_materials(made.get());
   species_made_.erase(kind->name);
@@ -344,7 +346,8 @@ void SceneView::update(Session& session) {
     }
   } while (watch.seconds() < kUpload_s);
   follow_view_model(session);
-  if (session.pipeline().idle()) follow_overhead();
+  // The ground needs what lies over it to be seen as it is, at once; then as the trees stand at last.
+  if (session.pipeline().idle() || overhead_for_ == 0 || overhead_.valid()) follow_overhead();
 }
 
 bool SceneView::settled() const {

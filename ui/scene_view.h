@@ -77,7 +77,7 @@ class SceneView {
 
   // Materials of a species by its name: index of the first, or made now.
   std::map<std::string, std::size_t> species_materials_;
-  std::map<std::string, std::future<std::vector<scene::Material>>> species_made_;
+  std::map<std::string, std::future<render::MaterialLevels>> species_made_;
 
   std::vector<scene::Material> site_materials_;
   std::future<render::Overhead> overhead_;

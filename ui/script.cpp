@@ -18,7 +18,7 @@ struct Shape {
 const std::map<std::string, Shape, std::less<>>& commands() {
   static const std::map<std::string, Shape, std::less<>> known{
       {"wait", {1, 1, 1}},    {"settle", {0, 1, 1}}, {"move", {2, 2, 2}},   {"press", {0, 1, 0}},
-      {"release", {0, 1, 0}}, {"click", {2, 3, 2}},  {"drag", {4, 5, 5}},   {"scroll", {1, 1, 1}},
+      {"release", {0, 1, 0}}, {"click", {2, 3, 2}},  {"drag", {4, 5, 4}},   {"scroll", {1, 1, 1}},
       {"key", {1, 1, 0}},     {"type", {1, 64, 0}},  {"tool", {1, 4, 0}},   {"radius", {1, 1, 1}},
       {"camera", {6, 6, 6}},  {"ground", {2, 2, 2}}, {"open", {1, 1, 0}},   {"save", {1, 1, 0}},
       {"year", {1, 1, 1}},    {"plan", {0, 0, 0}},   {"trees", {0, 0, 0}},  {"screenshot", {1, 1, 0}},

@@ -2,7 +2,7 @@
 //
 // Format    a line each, times in seconds since the line before; # begins a comment:
 //             wait S | settle [S]         some seconds, or until nothing grows and is drawn (at most S, 60)
-//             move X Y | press [B] | release [B] | click X Y [B] | drag X Y X2 Y2 [S] | scroll N
+//             move X Y | press [B] | release [B] | click X Y [B] | drag X Y X2 Y2 [B] | scroll N
 //             key NAME | type TEXT        NAME as printed (A, 7, [, Enter, Escape, Delete, Ctrl+Z, Ctrl+Shift+S, F1)
 //             tool NAME | radius M        as the toolbar names them
 //             camera E N H TE TN TH       eye and target as east, north, height

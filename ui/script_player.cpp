@@ -50,6 +50,8 @@ void ScriptPlayer::fail(const ScriptLine& line, const std::string& what) {
   problem_ = fmt::format("{}:{}: {}", script_.file.string(), line.number, what);
   line_ = script_.lines.size();
   queue_.clear();
+  settle_until_s_ = -1, wait_until_s_ = 0;
+  shot_.reset();
 }
 
 // One frame with one event, after those that are waiting.
@@ -99,12 +101,12 @@ void ScriptPlayer::run(App& app, const ScriptLine& line, double time_s) {
     const Vec2 from(n(1), n(2)), to(n(3), n(4));
     pointer_ = from;
     add(Event::Kind::move);
-    add(Event::Kind::press, Button::left);
+    add(Event::Kind::press, button_of(line, 5));
     for (int i = 1; i <= kDragFrames; ++i) {
       pointer_ = glm::mix(from, to, static_cast<float>(i) / kDragFrames);
       add(Event::Kind::move);
     }
-    add(Event::Kind::release, Button::left);
+    add(Event::Kind::release, button_of(line, 5));
   } else if (what == "scroll") {
     add(Event::Kind::scroll);
     queue_.front().front().scroll = n(1);
@@ -170,6 +172,7 @@ std::vector<Event> ScriptPlayer::next(App& app, double time_s) {
     settle_until_s_ = -1;
   }
   if (time_s < wait_until_s_) return {};
+  wait_until_s_ = 0;
   while (queue_.empty() && line_ < script_.lines.size() && !shot_ && settle_until_s_ < 0 && time_s >= wait_until_s_)
     run(app, script_.lines[line_++], time_s);
   if (queue_.empty()) return {};

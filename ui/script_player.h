@@ -20,7 +20,11 @@ class ScriptPlayer {
 
   /// The events of the coming frame. Acts on the app where a line says so.
   std::vector<Event> next(App& app, double time_s);
-  bool done() const { return line_ >= script_.lines.size() && queue_.empty(); }
+  bool done() const {
+    return line_ >= script_.lines.size() && queue_.empty() && settle_until_s_ < 0 && wait_until_s_ == 0 && !shot_;
+  }
+  /// Of the file: the line that runs now.
+  int line() const { return line_ > 0 && line_ <= script_.lines.size() ? script_.lines[line_ - 1].number : 0; }
   /// Why it ended before its end; empty when it did not.
   const std::string& problem() const { return problem_; }
 

@@ -43,7 +43,8 @@ void Session::begin(scene::Document document, std::string name) {
     rig.frame({{0.0f, ground, -size.y}, {size.x, ground + 0.1f * std::max(size.x, size.y), 0.0f}}, 1.5f);
   rig.keep_above(*document.terrain);
   ++revision_;
-  pipeline_->set_document(history_->current(), {rig.eye()});
+  looked_from_ = rig.eye();
+  pipeline_->set_document(history_->current(), {looked_from_});
 }
 
 void Session::changed() {
@@ -51,7 +52,8 @@ void Session::changed() {
   ++edit_;
   // What is gone cannot be selected.
   std::erase_if(selection_, [&](std::int32_t id) { return !document()->trees->find(id); });
-  pipeline_->set_document(document(), {rig.eye()});
+  looked_from_ = rig.eye();
+  pipeline_->set_document(document(), {looked_from_});
   if (journal_) journal_->record(*document(), edit_);
 }
 
@@ -204,6 +206,13 @@ void Session::use(ToolAnswer answer) {
 
 void Session::send(const ToolEvent& event, Vec2 view_size) { use(tool_->handle(event, tool_scene(view_size))); }
 void Session::tick(double time_s, Vec2 view_size) { use(tool_->tick(time_s, tool_scene(view_size))); }
+
+void Session::look_from_here() {
+  const Vec3 eye = rig.eye();
+  if (eye == looked_from_) return;
+  looked_from_ = eye;
+  pipeline_->set_view({eye});
+}
 
 void Session::confirm_trees(Vec2 view_size) {
   asked_trees_ = 0;

@@ -75,6 +75,8 @@ class Session {
   /// Hands an event to the tool and does what it answers.
   void send(const ToolEvent& event, Vec2 view_size);
   void tick(double time_s, Vec2 view_size);
+  /// The camera rests: what is nearest to it grows first, and finest.
+  void look_from_here();
   void confirm_trees(Vec2 view_size);
   std::size_t asked_trees() const { return asked_trees_; }
   void decline_trees();
@@ -108,12 +110,18 @@ class Session {
   ToolKind tool_kind_ = ToolKind::select;
   std::unique_ptr<Tool> tool_;
   std::size_t asked_trees_ = 0;
+  Vec3 looked_from_{0.0f};
   std::uint64_t revision_ = 0, saved_revision_ = 0, edit_ = 0;
 };
 
 /// The documents that "New" offers: meadow, river bank, city square, avenue, forest edge.
 std::vector<std::string> template_names();
 Result<scene::Document> make_template(const std::string& name);
+
+/// The park that is shown when no file is opened.
+Result<scene::Document> make_example();
+/// Its recipe.
+const char* example_park_recipe();
 
 /// A document from a project or a recipe.
 struct OpenedDocument {

@@ -107,16 +107,24 @@ std::vector<std::string> template_names() {
   return names;
 }
 
+namespace {
+
+Result<scene::Document> made(const std::string& recipe_text, const std::string& name) {
+  auto recipe = exchange::parse_recipe(recipe_text, name + ".toml");
+  if (!recipe) return recipe.error();
+  auto built = exchange::build_document(*recipe);
+  if (!built) return built.error();
+  scene::settle_counters(built->document);
+  return std::move(built->document);
+}
+
+}  // namespace
+
+Result<scene::Document> make_example() { return made(example_park_recipe(), "park"); }
+
 Result<scene::Document> make_template(const std::string& name) {
-  for (const Template& t : kTemplates) {
-    if (name != t.name) continue;
-    auto recipe = exchange::parse_recipe(std::string(t.recipe) + kSpecies, name + ".toml");
-    if (!recipe) return recipe.error();
-    auto built = exchange::build_document(*recipe);
-    if (!built) return built.error();
-    scene::settle_counters(built->document);
-    return std::move(built->document);
-  }
+  for (const Template& t : kTemplates)
+    if (name == t.name) return made(std::string(t.recipe) + kSpecies, name);
   std::string known;
   for (const Template& t : kTemplates) known += (known.empty() ? "" : ", ") + std::string(t.name);
   return Error{"no template is called '" + name + "'; there are: " + known};

@@ -394,7 +394,7 @@ TEST_F(RendererTest, NodesPutAndRemovedLookAsIfTheyHadBeenUploaded) {
 
   ASSERT_TRUE(renderer_->upload(ground));
   const std::vector<scene::Material> added(all.materials.begin() + 1, all.materials.end());
-  const Result<std::size_t> first = renderer_->add_materials(added);
+  const Result<std::size_t> first = renderer_->add_materials(make_levels(added));
   ASSERT_TRUE(first);
   EXPECT_EQ(*first, 1u);
   ASSERT_TRUE(renderer_->put(7, all.nodes[1]));

@@ -56,5 +56,27 @@ TEST(Input, TypedTextAndWheelArrive) {
   page.frame([] {});
 }
 
+TEST(Input, WhatComesAfterAClickWaitsSoThatItIsSeenWhereItWas) {
+  test::ImGuiPage page;
+  Input input;
+  const std::array<Event, 4> click_and_go{Event{.kind = Event::Kind::move, .at = {50, 20}},
+                                          Event{.kind = Event::Kind::press, .at = {50, 20}, .button = Button::left},
+                                          Event{.kind = Event::Kind::release, .at = {50, 20}, .button = Button::left},
+                                          Event{.kind = Event::Kind::move, .at = {300, 200}}};
+  EXPECT_EQ(input.feed(click_and_go).size(), 2u);
+  EXPECT_TRUE(ImGui::GetIO().MouseDown[0]);
+  EXPECT_EQ(ImGui::GetIO().MousePos.x, 50);
+  ASSERT_TRUE(input.waiting());
+  page.frame([] {});
+  EXPECT_EQ(input.feed({}).size(), 1u);
+  EXPECT_EQ(ImGui::GetIO().MousePos.x, 50);
+  ASSERT_TRUE(input.waiting());
+  page.frame([] {});
+  EXPECT_EQ(input.feed({}).size(), 1u);
+  EXPECT_EQ(ImGui::GetIO().MousePos.x, 300);
+  EXPECT_FALSE(input.waiting());
+  page.frame([] {});
+}
+
 }  // namespace
 }  // namespace bosquet::ui

@@ -59,7 +59,9 @@ void Panels::export_dialog(App& app, const Layout& layout) {
                 fmt::format("{:.0f} MB", static_cast<double>(size.bytes) / 1e6).c_str());
   }
   ImGui::BeginDisabled(!ready || app.export_.running());
-  if (ImGui::Button("Choose file...", {140 * layout.scale, 0})) {
+  const bool chosen = ImGui::Button("Choose file...", {140 * layout.scale, 0});
+  mark(app, "Choose file...");
+  if (chosen) {
     app.show_export_ = false;
     ImGui::CloseCurrentPopup();
     app.chooser_.ask(FileChooser::Mode::save, "Export", {".glb", ".gltf"}, s.name() + ".glb",
@@ -86,14 +88,14 @@ void Panels::questions(App& app, const Layout& layout) {
     centre_next(layout, 380);
     if (!ImGui::BeginPopupModal("So many trees?", nullptr, kDialog)) return;
     ImGui::TextWrapped("This would plant about %zu trees. Growing them takes long and much memory.", s.asked_trees());
-    if (ImGui::Button("Plant them", {130 * layout.scale, 0})) {
-      done();
-      s.confirm_trees(app.view_size_);
-    }
+    const bool plant = ImGui::Button("Plant them", {130 * layout.scale, 0});
+    mark(app, "Plant them");
     ImGui::SameLine();
-    if (ImGui::Button("Do not", {130 * layout.scale, 0})) {
+    const bool decline = ImGui::Button("Do not", {130 * layout.scale, 0});
+    mark(app, "Do not");
+    if (plant || decline) {
       done();
-      s.decline_trees();
+      plant ? s.confirm_trees(app.view_size_) : s.decline_trees();
     }
     ImGui::EndPopup();
     return;
@@ -113,6 +115,7 @@ void Panels::questions(App& app, const Layout& layout) {
       ImGui::SameLine(350 * layout.scale);
       ImGui::PushID(static_cast<int>(i));
       if (ImGui::Button("Recover", {110 * layout.scale, 0})) chosen = i;
+      mark(app, fmt::format("Recover {}", i));
       ImGui::PopID();
     }
     if (chosen) {
@@ -134,17 +137,17 @@ void Panels::questions(App& app, const Layout& layout) {
   if (!ImGui::BeginPopupModal("Unsaved work", nullptr, kDialog)) return;
   ImGui::TextWrapped("%s was changed and is not saved.", s.name().c_str());
   const auto then = app.then_;
-  if (ImGui::Button("Save", {120 * layout.scale, 0})) {
-    done();
-    save(app, then);
-  }
+  const bool keep = ImGui::Button("Save", {120 * layout.scale, 0});
+  mark(app, "Save");
   ImGui::SameLine();
-  if (ImGui::Button("Do not save", {120 * layout.scale, 0})) {
-    done();
-    if (then) then();
-  }
+  const bool lose = ImGui::Button("Do not save", {120 * layout.scale, 0});
+  mark(app, "Do not save");
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {120 * layout.scale, 0})) done();
+  const bool stay = ImGui::Button("Cancel", {120 * layout.scale, 0}) || ImGui::IsKeyPressed(kKeyEscape, false);
+  mark(app, "Cancel");
+  if (keep || lose || stay) done();
+  if (keep) save(app, then);
+  if (lose && then) then();
   ImGui::EndPopup();
 }
 
@@ -190,8 +193,9 @@ void Panels::first_run(App& app, const Layout& layout) {
   ImGui::Text("%d of 5   %s", app.overlay_step_ + 1, step.title);
   if (app.fonts_.heading) ImGui::PopFont();
   ImGui::TextWrapped("%s", step.text);
-  if (ImGui::Button(app.overlay_step_ == 4 ? "Begin" : "Next", {110 * layout.scale, 0}))
-    app.overlay_step_ = app.overlay_step_ == 4 ? -1 : app.overlay_step_ + 1;
+  const bool next = ImGui::Button(app.overlay_step_ == 4 ? "Begin" : "Next", {110 * layout.scale, 0});
+  mark(app, "Next");
+  if (next) app.overlay_step_ = app.overlay_step_ == 4 ? -1 : app.overlay_step_ + 1;
   ImGui::SameLine();
   if (app.overlay_step_ >= 0 && app.overlay_step_ < 4 && ImGui::Button("Skip", {110 * layout.scale, 0}))
     app.overlay_step_ = -1;

@@ -9,19 +9,39 @@
 // The window's frame: menu, tools, status, and what lies over them for a moment.
 namespace bosquet::ui {
 
-bool begin_panel(const char* name, Vec2 low, Vec2 size) {
+bool begin_panel(const char* name, Vec2 low, Vec2 size, bool scrolls) {
   ImGui::SetNextWindowPos({low.x, low.y});
   ImGui::SetNextWindowSize({size.x, size.y});
   return ImGui::Begin(name, nullptr,
                       ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                          ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings);
+                          ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
+                          (scrolls ? 0 : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
 }
 
 void end_panel() { ImGui::End(); }
 
+void Panels::mark(App& app, std::string_view name) {
+  if (!app.marking_ || ImGui::IsWindowAppearing()) return;  // it still looks for its place
+  const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  app.marks_[std::string(name)] = Vec4(low.x, low.y, size.x, size.y);
+}
+
 void Panels::ask_open(App& app) {
   app.chooser_.ask(FileChooser::Mode::open, "Open", {".bosquet", ".toml"}, "",
                    [&app](const std::filesystem::path& file) { app.open_file(file); });
+}
+
+void Panels::ask_import(App& app, ImportKind kind) {
+  app.chooser_.ask(
+      FileChooser::Mode::open, "Import", import_endings(kind), "", [&app, kind](const std::filesystem::path& file) {
+        auto edit = import_file(*app.session_->document(), kind, file);
+        if (!edit) {
+          app.say(edit.error().message);
+          return;
+        }
+        app.say(edit->notes.empty() ? edit->name + " from " + file.filename().string() : edit->notes.front());
+        app.session_->apply(std::move(*edit));
+      });
 }
 
 void Panels::ask_save_as(App& app, std::function<void()> then) {
@@ -53,7 +73,9 @@ void Panels::menu(App& app, Layout& layout) {
   Session& s = *app.session_;
   if (!ImGui::BeginMainMenuBar()) return;
   layout.menu = ImGui::GetWindowHeight();
-  if (ImGui::BeginMenu("File")) {
+  const bool file_open = ImGui::BeginMenu("File");
+  mark(app, "File");
+  if (file_open) {
     if (ImGui::BeginMenu("New")) {
       for (const std::string& name : template_names())
         if (ImGui::MenuItem(name.c_str()))
@@ -77,12 +99,21 @@ void Panels::menu(App& app, Layout& layout) {
     if (ImGui::MenuItem("Save", "Ctrl+S")) save(app);
     if (ImGui::MenuItem("Save as...", "Ctrl+Shift+S")) ask_save_as(app);
     ImGui::Separator();
+    if (ImGui::BeginMenu("Import")) {
+      if (ImGui::MenuItem("Ground (elevation raster)...")) ask_import(app, ImportKind::ground);
+      if (ImGui::MenuItem("Trees (inventory)...")) ask_import(app, ImportKind::trees);
+      if (ImGui::MenuItem("Buildings (outlines or mesh)...")) ask_import(app, ImportKind::buildings);
+      ImGui::EndMenu();
+    }
     if (ImGui::MenuItem("Export...", "Ctrl+E")) app.show_export_ = true;
+    mark(app, "Export...");
     ImGui::Separator();
     if (ImGui::MenuItem("Quit", "Ctrl+Q")) app.run_guarded([&app] { app.ended_ = true; }, App::Ask::close);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Edit")) {
+  const bool edit_open = ImGui::BeginMenu("Edit");
+  mark(app, "Edit");
+  if (edit_open) {
     const scene::History& h = s.history();
     const std::string undo = h.can_undo() ? "Undo " + h.undo_name() : "Undo";
     const std::string redo = h.can_redo() ? "Redo " + h.redo_name() : "Redo";
@@ -99,7 +130,9 @@ void Panels::menu(App& app, Layout& layout) {
     if (ImGui::MenuItem("Keep as hero", nullptr, false, s.selected_tree() != nullptr)) keep_as_hero(app);
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("View")) {
+  const bool view_open = ImGui::BeginMenu("View");
+  mark(app, "View");
+  if (view_open) {
     for (std::size_t k = 0; k < kShowNames.size(); ++k)
       if (ImGui::MenuItem(kShowNames[k].data(), nullptr, app.view_->show == static_cast<Show>(k))) {
         app.view_->show = static_cast<Show>(k);
@@ -126,7 +159,9 @@ void Panels::menu(App& app, Layout& layout) {
     }
     ImGui::EndMenu();
   }
-  if (ImGui::BeginMenu("Help")) {
+  const bool help_open = ImGui::BeginMenu("Help");
+  mark(app, "Help");
+  if (help_open) {
     ImGui::MenuItem("Shortcuts", "F1", &app.show_shortcuts_);
     if (ImGui::MenuItem("First steps")) app.overlay_step_ = 0;
     ImGui::EndMenu();
@@ -170,9 +205,9 @@ const char* symbol(ToolKind kind) {
 }
 
 const char* short_name(ToolKind kind) {
-  static constexpr const char* kNames[] = {"Select", "Paint", "Tree",  "Row",   "Grid",   "Hedge",
-                                           "Fill",   "Erase", "Raise", "Lower", "Smooth", "Flatten",
-                                           "Rough",  "Free",  "Plant", "Water", "Measure"};
+  static constexpr const char* kNames[] = {"Select", "Paint",     "Tree",      "Row",   "Grid",   "Hedge",
+                                           "Fill",   "Erase",     "Raise",     "Lower", "Smooth", "Flatten",
+                                           "Rough",  "Keep free", "Let plant", "Water", "Measure"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -208,7 +243,7 @@ void row_fields(distribution::RowRules& row) {
 void Panels::toolbar(App& app, const Layout& layout) {
   Session& s = *app.session_;
   ToolSettings& t = s.settings;
-  if (begin_panel("tools", {0, layout.menu}, {layout.screen.x, layout.top})) {
+  if (begin_panel("tools", {0, layout.menu}, {layout.screen.x, layout.top}, false)) {
     const float button = 30 * layout.scale;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {3 * layout.scale, 0});
     for (int k = 0; k < kToolCount; ++k) {
@@ -224,13 +259,18 @@ void Panels::toolbar(App& app, const Layout& layout) {
       const bool drawn = sign && kind != ToolKind::fill && kind != ToolKind::row && kind != ToolKind::measure;
       const std::string label = std::string(drawn ? sign : short_name(kind)) + "##" + std::string(info.name);
       if (ImGui::Button(label.c_str(), {drawn ? button : 0, button})) s.take(kind);
+      mark(app, info.name);
       if (held) ImGui::PopStyleColor();
       explain(fmt::format("{} ({})\n{}", info.name, static_cast<char>(info.key), info.hint));
       ImGui::SameLine();
     }
     ImGui::PopStyleVar();
-    ImGui::Dummy({8 * layout.scale, button});
-    ImGui::SameLine();
+    if (layout.two_rows) {
+      ImGui::NewLine();
+    } else {
+      ImGui::Dummy({8 * layout.scale, button});
+      ImGui::SameLine();
+    }
     // What the tool in hand can be told, and nothing of the others.
     const ToolInfo& info = tool_info(s.tool_kind());
     if (info.has_radius) radius_field(t);
@@ -289,7 +329,7 @@ void Panels::toolbar(App& app, const Layout& layout) {
 void Panels::status(App& app, const Layout& layout) {
   Session& s = *app.session_;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * layout.scale, 4 * layout.scale});
-  if (begin_panel("status", {0, layout.screen.y - layout.bottom}, {layout.screen.x, layout.bottom})) {
+  if (begin_panel("status", {0, layout.screen.y - layout.bottom}, {layout.screen.x, layout.bottom}, false)) {
     const scene::PipelineStatus status = s.pipeline().status();
     ImGui::Text("%zu trees", s.document()->trees->size());
     ImGui::SameLine(0, 18 * layout.scale);
@@ -335,6 +375,7 @@ void Panels::history(App& app, const Layout& layout) {
       const bool undone = step > h.place();
       if (undone) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
       if (ImGui::Selectable((h.name(step) + "##" + std::to_string(step)).c_str(), step == h.place())) to = step;
+      mark(app, fmt::format("history {}", step));
       if (undone) ImGui::PopStyleColor();
     }
     if (to) s.go_to(*to);
@@ -374,6 +415,9 @@ void Panels::shortcuts(App& app, const Layout& layout) {
       }
       row("[ ]", "Smaller or larger brush");
       row("Shift", "Smooths, erases, or adds to the selection");
+      row("Drag", "Select: a box; on a tree: moves it");
+      row("Alt + drag", "Select: a lasso");
+      row("Ctrl + wheel", "Size of the selected trees");
       row("Right drag", "Turn the view");
       row("Middle drag, Shift + right drag", "Move the view");
       row("Wheel", "Nearer or farther");

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ui/app.h"
+#include "ui/import_files.h"
 
 namespace bosquet::ui {
 
@@ -13,6 +14,7 @@ struct Layout {
   float scale = 1;
   float menu = 0, top = 0, left = 0, right = 0, bottom = 0;  ///< thicknesses
   Vec2 screen{0.0f};
+  bool two_rows = false;  ///< the tools' settings stand below them, where the window is narrow
 };
 
 struct Panels {
@@ -28,8 +30,12 @@ struct Panels {
   static void first_run(App& app, const Layout& layout);
   static void toast(App& app, const Layout& layout);
 
+  /// Notes where the widget drawn last lies.
+  static void mark(App& app, std::string_view name);
+
   /// What the menu and the shortcuts do alike.
   static void ask_open(App& app);
+  static void ask_import(App& app, ImportKind kind);
   static void ask_save_as(App& app, std::function<void()> then = {});
   static void save(App& app, std::function<void()> then = {});
   static void keep_as_hero(App& app);
@@ -41,8 +47,8 @@ struct Panels {
   static void growth_widgets(App& app, const scene::Tree& tree);
 };
 
-/// Begins a panel fixed at a place.
-bool begin_panel(const char* name, Vec2 low, Vec2 size);
+/// Begins a panel fixed at a place; one that `scrolls` gets a bar when it is too small.
+bool begin_panel(const char* name, Vec2 low, Vec2 size, bool scrolls = true);
 void end_panel();
 
 }  // namespace bosquet::ui

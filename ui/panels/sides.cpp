@@ -87,6 +87,7 @@ void Panels::species_bar(App& app, const Layout& layout) {
       const ImVec2 low = ImGui::GetCursorScreenPos();
       const float width = ImGui::GetContentRegionAvail().x;
       ImGui::InvisibleButton("species", {width, row});
+      mark(app, species.name);
       const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
       float share = probability(*document, k);
       if (ImGui::IsItemActivated()) drag = new_drag(), s.settings.species = k;
@@ -99,13 +100,22 @@ void Panels::species_bar(App& app, const Layout& layout) {
       ImDrawList* draw = ImGui::GetWindowDrawList();
       const ImVec2 high{low.x + width, low.y + row - 4 * layout.scale};
       draw->AddRectFilled(low, high, ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), 5);
-      draw->AddRectFilled(low, {low.x + width * std::min(1.0f, share), high.y}, ImGui::GetColorU32(ImGuiCol_Header), 5);
+      const float bar = 5 * layout.scale;
+      draw->AddRectFilled({low.x, high.y - bar}, {low.x + width * std::min(1.0f, share), high.y},
+                          ImGui::GetColorU32(ImGuiCol_CheckMark), 2);
       if (s.settings.species == k) draw->AddRect(low, high, ImGui::GetColorU32(ImGuiCol_CheckMark), 5, 0, 1.5f);
-      draw_habit(species, {low.x + 4, low.y + 3}, {42 * layout.scale, row - 10 * layout.scale}, tallest);
-      draw->AddText({low.x + 50 * layout.scale, low.y + 8 * layout.scale}, ImGui::GetColorU32(ImGuiCol_Text),
+      const float picture = 48 * layout.scale;
+      if (const unsigned texture = app.thumbnails_->of(document->species[k]))
+        draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), {low.x + 3, low.y + 1},
+                       {low.x + 3 + picture, low.y + 1 + picture});
+      else
+        draw_habit(species, {low.x + 4, low.y + 3}, {42 * layout.scale, row - 10 * layout.scale}, tallest);
+      draw->AddText({low.x + 56 * layout.scale, low.y + 8 * layout.scale}, ImGui::GetColorU32(ImGuiCol_Text),
                     readable(species.name).c_str());
-      draw->AddText({low.x + 50 * layout.scale, low.y + 27 * layout.scale}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-                    fmt::format("{:.0f} %", sum > 0 ? 100.0f * share / sum : 0.0f).c_str());
+      draw->AddText(
+          {low.x + 56 * layout.scale, low.y + 27 * layout.scale}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+          fmt::format("{:.0f} %   {:.0f} m", sum > 0 ? 100.0f * share / sum : 0.0f, species.shape.mature_height_m)
+              .c_str());
       if (!held)
         explain(fmt::format("{} ({})\nDrag sideways: how much of it the brush plants", readable(species.name),
                             species.botanical_name));
@@ -163,22 +173,26 @@ void Panels::growth_widgets(App& app, const scene::Tree& tree) {
   bool changed = false;
   ImGui::BeginGroup();
   changed |= tropism_arrow("set point", p.set_point_angle_deg, half);
+  mark(app, "Tropism");
   explain("Where branches turn to: up, level or down. Drag the arrow.");
   ImGui::Text("Tropism %.0f\xc2\xb0", p.set_point_angle_deg);
   ImGui::EndGroup();
   ImGui::SameLine();
   ImGui::BeginGroup();
   changed |= branching_angles("angles", p.branching_angle_deg, p.deflection_angle_deg, half);
+  mark(app, "Branching");
   explain("The angle at which side shoots leave, and how far they push their parent away. Drag either.");
   ImGui::Text("Branching %.0f\xc2\xb0, %.0f\xc2\xb0", p.branching_angle_deg, p.deflection_angle_deg);
   ImGui::EndGroup();
   ImGui::BeginGroup();
   changed |= weights_triangle("weights", p.straightness, p.tropism, p.space, half);
+  mark(app, "Weights");
   explain("What a new shoot follows: its own direction, the tropism, or free space. Drag the point.");
   ImGui::EndGroup();
   ImGui::SameLine();
   ImGui::BeginGroup();
   changed |= bud_ellipse("buds", p.gravimorphism_vertical, p.gravimorphism_level, p.gravimorphism_offset, half);
+  mark(app, "Buds");
   explain("Which buds round a level branch are favoured: those above, below or beside it. Drag its handles.");
   ImGui::EndGroup();
   app.schematic_.set(p);
@@ -293,7 +307,7 @@ void Panels::site_page(App& app) {
   ImGui::Checkbox("All grown", &app.all_grown_);
   explain("Every tree at its final height");
   if (ImGui::IsItemEdited() || ImGui::IsItemDeactivatedAfterEdit()) {
-    if (!app.all_grown_ && app.year_ <= 0) app.year_ = 30;
+    if (!app.all_grown_ && app.year_ >= 100) app.year_ = 30;
     s.set_year(app.all_grown_ ? std::optional<float>() : std::optional<float>(app.year_));
     app.playing_ = false;
   }
@@ -303,7 +317,8 @@ void Panels::site_page(App& app) {
     if (app.playing_ && (app.year_ >= 100 || app.all_grown_)) app.year_ = 1;
   }
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##year", &app.year_, 1, 100, "%.0f years", ImGuiSliderFlags_AlwaysClamp)) {
+  if (ImGui::SliderFloat("##year", &app.year_, 1, 100, app.all_grown_ ? "fully grown" : "%.0f years",
+                         ImGuiSliderFlags_AlwaysClamp)) {
     app.all_grown_ = false;
     s.set_year(app.year_);
   }

@@ -34,7 +34,8 @@ std::string label_of(std::string_view name, std::string_view unit) {
 }
 
 void explain(std::string_view meaning) {
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  // Not over what is being dragged.
+  if (ImGui::IsMouseDown(0) || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kTooltipWidth * ImGui::GetFontSize());
   ImGui::TextUnformatted(meaning.data(), meaning.data() + meaning.size());

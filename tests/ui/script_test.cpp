@@ -1,0 +1,32 @@
+#include "ui/script.h"
+
+#include <gtest/gtest.h>
+
+namespace bosquet::ui {
+namespace {
+
+std::string problem_of(const std::string& text) {
+  const auto script = parse_script(text, "s.script");
+  return script ? "" : script.error().message;
+}
+
+TEST(Script, LinesAreWordsWithoutCommentsAndKeepTheirNumbers) {
+  const auto script = parse_script("# a session\n\nkey Ctrl+Z  # back\ndrag 1 2 3 4 right\n", "s.script");
+  ASSERT_TRUE(script) << script.error().message;
+  ASSERT_EQ(script->lines.size(), 2u);
+  EXPECT_EQ(script->lines[0].number, 3);
+  EXPECT_EQ(script->lines[0].words, (std::vector<std::string>{"key", "Ctrl+Z"}));
+  EXPECT_EQ(script->lines[1].words.back(), "right");
+}
+
+TEST(Script, AMistakeIsToldWithItsLineAndWhatIsAllowed) {
+  const std::string unknown = problem_of("wait 1\njump 3\n");
+  EXPECT_NE(unknown.find("s.script:2"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("'jump' is no command"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("drag"), std::string::npos) << unknown;
+  EXPECT_NE(problem_of("move 3\n").find("takes 2 words"), std::string::npos);
+  EXPECT_NE(problem_of("scroll up\n").find("'up' is not a number"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bosquet::ui

@@ -1,0 +1,26 @@
+// Import: ground, trees and buildings of somebody else's files as edits of the document that is open.
+//
+// Model     ground is resampled to the site; trees and outlines are put where their coordinates say, in the site's
+//           reference system where it has one; a mesh stands with its origin on the ground at the site's south-west corner
+// Frame     plan (east, north) metres
+// Errors    those of the readers in exchange/, naming the file; the document stays as it was
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "scene/edits.h"
+
+namespace bosquet::ui {
+
+enum class ImportKind { ground, trees, buildings };
+
+/// Endings of the files that each kind reads.
+std::vector<std::string> import_endings(ImportKind kind);
+
+/// What came with the file, and what was left out, stands in the edit's notes.
+Result<scene::Edited> import_file(const scene::Document& document, ImportKind kind, const std::filesystem::path& file);
+
+}  // namespace bosquet::ui
