@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "exchange/gdal_scope.h"
+
 namespace bosquet::exchange {
 namespace {
 
@@ -14,11 +16,6 @@ using std::filesystem::path;
 
 enum MapBand { kBarred, kDensity, kTop, kUnder, kCover, kPond, kMapBands };
 constexpr int kMaskBands = 2, kAreaBands = 5;
-
-struct QuietGdal {
-  QuietGdal() { GDALAllRegister(), CPLErrorReset(), CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-};
 
 template <class T>
 bool everywhere(const terrain::TiledGrid<T>& grid, T value) {
@@ -32,7 +29,8 @@ bool everywhere(const terrain::TiledGrid<T>& grid, T value) {
 template <class Value, class Row>
 Result<void> write_raster(const path& target, IVec2 size, int bands, GDALDataType type, const char* predictor,
                           DVec2 corner, double cell, const std::string& crs_wkt, const Row& row) {
-  const QuietGdal quiet;
+  GDALAllRegister();
+  const GdalMessages quiet;
   const char* options[] = {"COMPRESS=DEFLATE", predictor, "INTERLEAVE=BAND", nullptr};
   GDALDatasetH set = nullptr;
   if (GDALDriverH driver = GDALGetDriverByName("GTiff"))
@@ -105,7 +103,8 @@ Result<void> write_map(const terrain::Terrain& ground, const scene::Georeference
 }
 
 Result<void> read_map(const path& file, const std::vector<terrain::Area>& areas, terrain::Terrain& ground) {
-  const QuietGdal quiet;
+  GDALAllRegister();
+  const GdalMessages quiet;
   GDALDatasetH set = GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr);
   if (!set) return Error{fmt::format("{} is no raster that can be read", file.string())};
   struct Closing {
