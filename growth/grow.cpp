@@ -18,7 +18,7 @@ void record_light_and_vigor(Tree& tree) {
   for (std::size_t i = 0; i < wood.size(); ++i) {
     if (!wood.alive(i)) continue;
     wood.light[i] = light_at(tree, wood.distal[i]);
-    if (wood.born[i] + 1 < tree.season) wood.vigor[i] = tree.vigor_share(i);
+    if (wood.born[i] + 1 < tree.season) tree.scale_vigor(i);
   }
 }
 

@@ -3,6 +3,7 @@
 // Holds     the same bits as four single computations: only + - * and comparisons, in the order written, nothing fused
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -23,6 +24,7 @@ inline Int4 load4(const std::int32_t* from) {
   std::memcpy(&v, from, sizeof v);
   return v;
 }
+inline void store4(float* to, Float4 v) { std::memcpy(to, &v, sizeof v); }
 inline void store4(std::int32_t* to, Int4 v) { std::memcpy(to, &v, sizeof v); }
 inline Float4 all4(float x) { return Float4{x, x, x, x}; }
 
@@ -34,20 +36,26 @@ inline float square(Float4 v) {
   const Float4 s = v * v;
   return s[0] + s[1] + s[2];
 }
+/// Square roots, each as std::sqrt.
+inline Float4 root(Float4 v) {
+#ifdef __SSE__
+  return __builtin_ia32_sqrtps(v);
+#endif
+  for (int i = 0; i < 4; ++i) v[i] = std::sqrt(v[i]);
+  return v;
+}
 /// Towards zero.
 inline Int4 whole(Float4 v) { return __builtin_convertvector(v, Int4); }
 
-/// True when a comparison held in every lane.
-inline bool all(Int4 mask) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &mask, sizeof halves);
-  return (halves[0] & halves[1]) == ~std::uint64_t{0};
+/// Bit i: a comparison held in lane i.
+inline int lanes_where(Int4 mask) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(reinterpret_cast<Float4>(mask));
+#else
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
 }
-/// True when a comparison held in one of the lanes.
-inline bool any(Int4 mask) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &mask, sizeof halves);
-  return (halves[0] | halves[1]) != 0;
-}
+inline bool all(Int4 mask) { return lanes_where(mask) == 15; }
+inline bool any(Int4 mask) { return lanes_where(mask) != 0; }
 
 }  // namespace bosquet::growth

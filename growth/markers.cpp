@@ -11,49 +11,65 @@ namespace {
 
 constexpr int kLanes = 4;
 constexpr float kFarAway = 1e15f;
+constexpr std::size_t kFew = 40;
 
 }  // namespace
 
 void PerceptionSamples::reset(float depth, float cos_half_angle, bool planar) {
-  if (depth == depth_ && cos_half_angle == cos_ && planar == planar_) return;
-  depth_ = depth, cos_ = cos_half_angle, planar_ = planar;
-  points_.resize(kCount);
-  const float outer = 1.0f + depth;
-  const float half_angle = acos(cos_half_angle);
-  for (std::uint32_t i = 0; i < kCount; ++i) {
+  const auto same = [&](const Points& p) {
+    return p.depth == depth && p.cos_half_angle == cos_half_angle && p.planar == planar;
+  };
+  auto points = std::find_if(kept_.begin(), kept_.end(), same);
+  if (points == kept_.end()) {
+    if (kept_.size() < kKept) {
+      points = kept_.emplace(kept_.end());
+    } else {
+      points = kept_.begin() + static_cast<std::ptrdiff_t>(oldest_++ % kKept);
+    }
+    points->depth = depth, points->cos_half_angle = cos_half_angle, points->planar = planar;
+    make(*points);
+  }
+  x_ = points->x.data(), y_ = points->y.data(), z_ = points->z.data();
+}
+
+void PerceptionSamples::make(Points& p) {
+  p.x.resize(kCount + kMost), p.y.resize(kCount + kMost), p.z.resize(kCount + kMost);
+  const float outer = 1.0f + p.depth;
+  const float half_angle = acos(p.cos_half_angle);
+  for (std::uint32_t n = 0; n < kCount + kMost; ++n) {
+    const std::uint32_t i = n % kCount;
     // Multiples of 1/g, 1/g^2, 1/g^3 without their whole parts, g^4 = g + 1, in units of 2^-32.
     const auto even = [&](std::uint32_t step) { return static_cast<float>((0x80000000u + i * step) >> 8) * 0x1p-24f; };
     const float a = even(0xd1b54a33u), b = even(0xabc98389u), c = even(0x8cb92ba7u);
-    Vec3& p = points_[i];
     // In a plane the basis' first direction lies in it and areas count instead of volumes.
-    if (planar) {
+    if (p.planar) {
       const float radius = std::sqrt(1.0f + a * (outer * outer - 1.0f));
       const SinCos angle = sin_cos(half_angle * (2.0f * b - 1.0f));
-      p = {radius * angle.sin, 0.0f, radius * angle.cos};
+      p.x[n] = radius * angle.sin, p.y[n] = 0.0f, p.z[n] = radius * angle.cos;
       continue;
     }
     const float radius = pow(1.0f + a * (outer * outer * outer - 1.0f), 1.0f / 3.0f);
-    const float cos = 1.0f - b * (1.0f - cos_half_angle);
+    const float cos = 1.0f - b * (1.0f - p.cos_half_angle);
     const float sin = std::sqrt(std::max(0.0f, 1.0f - cos * cos));
     const SinCos azimuth = sin_cos(2.0f * kPi * c);
-    p = {radius * sin * azimuth.cos, radius * sin * azimuth.sin, radius * cos};
+    p.x[n] = radius * sin * azimuth.cos, p.y[n] = radius * sin * azimuth.sin, p.z[n] = radius * cos;
   }
 }
 
 void CompetitorIndex::build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle) {
   cos_ = cos_half_angle;
   const std::size_t n = competitors.size();
-  sorted_.resize(n);
   x_.resize(n + kLanes), y_.resize(n + kLanes), z_.resize(n + kLanes);
+  along_x_.resize(n + kLanes), along_y_.resize(n + kLanes), along_z_.resize(n + kLanes), bud_.resize(n + kLanes);
   cells_ = IVec3(0);
   if (n == 0) return;
   Box3 box;
   for (const Competitor& c : competitors) box.add(c.at);
 
-  // Cells as wide as buds look, or so wide that there are no more of them than buds.
+  // Cells as wide as buds look, or so wide that there are no more of them than buds; few buds are all asked.
   low_ = box.low;
   std::size_t cells = 0;
-  cell_m_ = reach_m;
+  cell_m_ = n <= kFew ? kFarAway : reach_m;
   do {
     inverse_ = 1.0f / cell_m_;
     cells_ = IVec3((box.high - box.low) * inverse_) + 1;
@@ -75,8 +91,10 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
   for (std::size_t i = n; i-- > 0;) {
     // From the back: start_[cell + 1] is the end of what is still to be placed.
     const auto place = static_cast<std::size_t>(--start_[static_cast<std::size_t>(cell_of_[i]) + 1]);
-    sorted_[place] = competitors[i];
-    x_[place] = competitors[i].at.x, y_[place] = competitors[i].at.y, z_[place] = competitors[i].at.z;
+    const Competitor& c = competitors[i];
+    x_[place] = c.at.x, y_[place] = c.at.y, z_[place] = c.at.z;
+    along_x_[place] = c.direction.x, along_y_[place] = c.direction.y, along_z_[place] = c.direction.z;
+    bud_[place] = c.bud;
   }
   for (std::size_t i = n; i < n + kLanes; ++i) x_[i] = y_[i] = z_[i] = kFarAway;
   // Each entry c + 1 now holds the start of cell c: move them down by one.
@@ -88,7 +106,7 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
   const Vec3 q = p - low_;
   const IVec3 from = glm::max(IVec3((q - within_m) * inverse_), IVec3(0));
   const IVec3 to = glm::min(IVec3((q + within_m) * inverse_), cells_ - 1);
-  const Float4 px = all4(p.x), py = all4(p.y), pz = all4(p.z);
+  const Float4 px = all4(p.x), py = all4(p.y), pz = all4(p.z), cos = all4(cos_);
   float best2 = within_m * within_m;
   std::int32_t best = fallback;
   for (int y = from.y; y <= to.y; ++y) {
@@ -101,16 +119,14 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
         // Lanes past the end are buds of other cells: as good as any.
         const Float4 x = px - load4(&x_[i]), y4 = py - load4(&y_[i]), z4 = pz - load4(&z_[i]);
         const Float4 squares = x * x + y4 * y4 + z4 * z4;
-        const Int4 near = squares <= all4(best2);
-        if (!any(near)) continue;
+        const Float4 along = x * load4(&along_x_[i]) + y4 * load4(&along_y_[i]) + z4 * load4(&along_z_[i]);
+        const Int4 perceive = (squares <= all4(best2)) & (along >= cos * root(squares));
+        if (!any(perceive)) continue;
         for (int lane = 0; lane < kLanes; ++lane) {
           const float square = squares[lane];
-          if (square > best2) continue;
-          const Competitor& c = sorted_[i + static_cast<std::size_t>(lane)];
-          if (square == best2 && c.bud >= best) continue;
-          const float along = glm::dot(p - c.at, c.direction);
-          if (along < cos_ * std::sqrt(square)) continue;
-          best2 = square, best = c.bud;
+          const std::int32_t bud = bud_[i + static_cast<std::size_t>(lane)];
+          if (!perceive[lane] || square > best2 || (square == best2 && bud >= best)) continue;
+          best2 = square, best = bud;
         }
       }
     }

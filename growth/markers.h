@@ -4,17 +4,16 @@
 // Model     a bud perceives what lies between r and r + d from it, inside the cone of half-angle zeta / 2 about its
 //           direction; a marker goes to the nearest bud that perceives it, the older one of two equally near
 // Decision  markers are drawn from 1024 fixed points of the perception volume, turned to the bud. The points are even in
-//           volume (the additive recurrence of Roberts 2018), more so than 4096 random ones, and stay in the cache
-// Cost      a marker: a few nanoseconds when refused by the occupied cell it falls in; a search over near buds else
+//           volume (the additive recurrence of Roberts 2018), and so are neighbours among them: a bud takes as many as it
+//           drops from a random one on, which spreads them better than if each were drawn for itself
+// Cost      a marker: a few nanoseconds when refused; a search over near buds else
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/random.h"
 #include "core/vec.h"
-#include "growth/directions.h"
 #include "growth/lanes.h"
 
 namespace bosquet::growth {
@@ -23,23 +22,28 @@ namespace bosquet::growth {
 class PerceptionSamples {
  public:
   static constexpr std::uint32_t kCount = 1024;
+  static constexpr std::uint32_t kMost = 20;  ///< that can be taken from any one on: after the last the first follow
 
-  /// `depth` is d / r. Keeps what it has when nothing changed.
+  /// `depth` is d / r. The points of the last volumes asked for are kept.
   void reset(float depth, float cos_half_angle, bool planar);
 
-  /// Sample n in the volume of a bud; `basis` is around its direction.
-  Vec3 at(std::uint32_t n, const Vec3& direction, const Basis& basis) const {
-    return vec3(at(n, lanes(basis.x), lanes(basis.y), lanes(direction)));
-  }
-  Float4 at(std::uint32_t n, Float4 x, Float4 y, Float4 direction) const {
-    const Vec3& s = points_[n & (kCount - 1)];
-    return x * all4(s.x) + y * all4(s.y) + direction * all4(s.z);
-  }
+  /// Samples n .. n + 3, n < kCount + kMost - 4.
+  Float4 x(std::uint32_t n) const { return load4(&x_[n]); }
+  Float4 y(std::uint32_t n) const { return load4(&y_[n]); }
+  Float4 z(std::uint32_t n) const { return load4(&z_[n]); }
 
  private:
-  float depth_ = -1.0f, cos_ = 2.0f;
-  bool planar_ = false;
-  std::vector<Vec3> points_;
+  struct Points {
+    float depth, cos_half_angle;
+    bool planar;
+    std::vector<float> x, y, z;
+  };
+  void make(Points& points);
+
+  static constexpr std::size_t kKept = 16;  ///< volumes, for the trees of a stand are of few species
+  std::vector<Points> kept_;
+  std::size_t oldest_ = 0;
+  const float *x_ = nullptr, *y_ = nullptr, *z_ = nullptr;
 };
 
 /// A bud that competes.
@@ -64,8 +68,9 @@ class CompetitorIndex {
   IVec3 cells_{0};
   std::vector<std::int32_t> start_;  ///< by cell, and one past the last
   std::vector<std::int32_t> cell_of_;
-  std::vector<float> x_, y_, z_;  ///< by cell, and four far away at the end
-  std::vector<Competitor> sorted_;
+  std::vector<float> x_, y_, z_;                    ///< by cell, and four far away at the end
+  std::vector<float> along_x_, along_y_, along_z_;  ///< directions
+  std::vector<std::int32_t> bud_;
 };
 
 }  // namespace bosquet::growth

@@ -1,156 +1,186 @@
 #include "growth/occupancy.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <cmath>
+#include <cstring>
 
 namespace bosquet::growth {
 namespace {
 
-constexpr int kReach = 2;                ///< cells around the one asked that may hold a node within r
-constexpr int kMargin = 4;               ///< cells around those asked, so that all eight blocks exist
-constexpr int kWood = kMargin + kReach;  ///< wood keeps so far inside that outside the margin all is free
+using Byte16 = std::uint8_t __attribute__((vector_size(16)));
 
-/// Bits of the cells around a cell in the two blocks along each axis that they lie in. Block (x, y, z) of the eight is
-/// number y * 4 + z * 2 + x; the cell asked is cell 2 + u of the eight along each axis.
-struct Window {
-  std::array<std::uint64_t, 8> cells{};  ///< that may hold a node within r: those across a corner are a whole r away
-  std::uint64_t own = 0;                 ///< bit of the cell itself, in block own_block
-  std::size_t own_block = 0;
-};
-std::array<Window, 64> all_windows() {
-  std::array<Window, 64> windows;
-  for (int u = 0; u < 64; ++u) {
-    Window& window = windows[static_cast<std::size_t>(u)];
-    for (int y = -kReach; y <= kReach; ++y) {
-      for (int z = -kReach; z <= kReach; ++z) {
-        for (int x = -kReach; x <= kReach; ++x) {
-          const int cx = (u & 3) + 2 + x, cy = (u >> 4) + 2 + y, cz = (u >> 2 & 3) + 2 + z;
-          const auto block = static_cast<std::size_t>(cy / 4 * 4 + cz / 4 * 2 + cx / 4);
-          const std::uint64_t bit = std::uint64_t{1} << ((cy & 3) << 4 | (cz & 3) << 2 | (cx & 3));
-          const bool corner = std::min({std::abs(x), std::abs(y), std::abs(z)}) == kReach;
-          if (!corner) window.cells[block] |= bit;
-          if (x == 0 && y == 0 && z == 0) window.own_block = block, window.own = bit;
-        }
-      }
-    }
-  }
-  return windows;
+/// Which of so many voxels from `origin` on an interval touches.
+VoxelRange touched(float low, float high, float origin, float edge, int count) {
+  const float from = std::floor((low - origin) / edge), to = std::floor((high - origin) / edge);
+  return {static_cast<int>(std::clamp(from, 0.0f, static_cast<float>(count))),
+          static_cast<int>(std::clamp(to, -1.0f, static_cast<float>(count - 1)))};
 }
-const std::array<Window, 64> kWindows = all_windows();
+
+/// One more or one less in the cells of each row; closed ones stay so.
+template <int kChange>
+void count_rows(std::uint8_t* at, const OccupiedRow* row, const std::ptrdiff_t* offset, std::size_t rows) {
+  for (std::size_t n = 0; n < rows; ++n) {
+    Byte16 cells, counted;
+    std::memcpy(&cells, at + offset[n], sizeof cells), std::memcpy(&counted, &row[n], sizeof counted);
+    counted &= reinterpret_cast<Byte16>(cells != Occupancy::kClosed);
+    cells = kChange > 0 ? cells + counted : cells - counted;
+    std::memcpy(at + offset[n], &cells, sizeof cells);
+  }
+}
 
 }  // namespace
 
-void Occupancy::reset(const Box3& room, float radius_m) {
-  radius_m_ = radius_m;
-  cell_m_ = radius_m * 0.577f, inverse_ = 1.0f / cell_m_;
-  next_.clear(), cell_of_.clear(), at_.clear();
-  lay_out(room);
-}
-
-void Occupancy::lay_out(const Box3& room) {
-  room_ = room;
-  low_ = room.low - Vec3(cell_m_ * static_cast<float>(kWood + 1));
-  blocks_ = (IVec3((room.high - room.low) * inverse_) + IVec3(2 * kWood + 3 + 3)) / 4;
-  cells_ = blocks_ * 4;
-  const std::size_t blocks = block({0, blocks_.y, 0});
-  bits_.assign(blocks, 0);
-  if (first_.size() < blocks * 64) first_.resize(blocks * 64);
-}
-
-void Occupancy::link(std::int32_t node, IVec3 c) {
-  const auto n = static_cast<std::size_t>(node);
-  const Place place = this->place(c);
-  const std::uint64_t bit = std::uint64_t{1} << place.bit;
-  Entry& entry = first_[place.entry()];
-  next_[n] = bits_[place.block] & bit ? entry.node : -1;
-  bits_[place.block] |= bit;
-  entry = {at_[n], node};
-  cell_of_[n] = static_cast<std::int64_t>(place.entry());
-}
-
-void Occupancy::add(std::int32_t node, const Vec3& p) {
-  const auto n = static_cast<std::size_t>(node);
-  if (n >= at_.size()) at_.resize(n + 1), next_.resize(n + 1, -1), cell_of_.resize(n + 1, -1);
-  at_[n] = p;
-  IVec3 c = cell(p);
-  if (!inside(c, kWood)) {
-    // Make room and bring every node to its new cell.
-    Box3 wider = room_;
-    const Vec3 more = (room_.high - room_.low) * 0.25f;
-    if (p.x < wider.low.x) wider.low.x = p.x - more.x;
-    if (p.y < wider.low.y) wider.low.y = p.y - more.y;
-    if (p.z < wider.low.z) wider.low.z = p.z - more.z;
-    if (p.x > wider.high.x) wider.high.x = p.x + more.x;
-    if (p.y > wider.high.y) wider.high.y = p.y + more.y;
-    if (p.z > wider.high.z) wider.high.z = p.z + more.z;
-    lay_out(wider);
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-      if (cell_of_[i] >= 0) link(static_cast<std::int32_t>(i), cell(at_[i]));
-    }
-    c = cell(p);
+void Occupancy::reset(const Box3& room, float radius_m, float reach_m, const crowns::CrownRegion* region, float lid_m,
+                      float least_cell_m) {
+  const float cell_m = std::max(radius_m * kCell, least_cell_m);
+  if (radius_m != radius_m_ || cell_m != cell_m_) {
+    radius_m_ = radius_m, cell_m_ = cell_m;
+    make_spheres();
   }
-  link(node, c);
+  inverse_ = 1.0f / cell_m_;
+  region_ = region, lid_m_ = lid_m;
+  margin_ = std::max(kBefore, static_cast<int>(reach_m * inverse_) + 2);
+  const IVec3 low = IVec3(glm::floor(room.low * inverse_)), high = IVec3(glm::floor(room.high * inverse_));
+  lay_out(low - margin_ - 2 + static_cast<int>(kOrigin), high - low + 2 * margin_ + 5);
+  close();
 }
 
-void Occupancy::remove(std::int32_t node) {
-  const auto n = static_cast<std::size_t>(node);
-  const auto place = static_cast<std::size_t>(cell_of_[n]);
-  Entry& entry = first_[place];
-  if (entry.node != node) {
-    std::int32_t* link = &next_[static_cast<std::size_t>(entry.node)];
-    while (*link != node) link = &next_[static_cast<std::size_t>(*link)];
-    *link = next_[n];
-  } else if (next_[n] >= 0) {
-    entry = {at_[static_cast<std::size_t>(next_[n])], next_[n]};
-  } else {
-    bits_[place / 64] &= ~(std::uint64_t{1} << place % 64);
-  }
-  cell_of_[n] = -1;
-}
-
-/// Is a node of these cells of the block nearer to p than r?
-inline bool Occupancy::near(const Vec3& p, std::size_t block, std::uint64_t cells) const {
-  const float r2 = radius_m_ * radius_m_;
-  const Entry* entries = first_.data() + block * 64;
-  for (; cells != 0; cells &= cells - 1) {
-    const Entry& entry = entries[std::countr_zero(cells)];
-    const Vec3 to = entry.at - p;
-    if (glm::dot(to, to) < r2) return true;
-    for (std::int32_t n = next_[static_cast<std::size_t>(entry.node)]; n >= 0; n = next_[static_cast<std::size_t>(n)]) {
-      const Vec3 to_next = at_[static_cast<std::size_t>(n)] - p;
-      if (glm::dot(to_next, to_next) < r2) return true;
+void Occupancy::make_spheres() {
+  for (std::size_t eighth = 0; eighth < 8; ++eighth) {
+    const auto from = [&](std::size_t axis) { return eighth >> axis & 1 ? 0.25f : -0.25f; };
+    Sphere& sphere = spheres_[eighth];
+    sphere.rows.clear(), sphere.at.clear();
+    for (int j = -kBefore; j <= kBefore; ++j) {
+      for (int k = -kBefore; k <= kBefore; ++k) {
+        OccupiedRow row{};
+        bool some = false;
+        for (int i = -kBefore; i <= kBefore; ++i) {
+          const Vec3 to = (Vec3(i, j, k) - Vec3{from(0), from(1), from(2)}) * cell_m_;
+          const bool within = (i == 0 && j == 0 && k == 0) || glm::dot(to, to) < radius_m_ * radius_m_;
+          row.cells[static_cast<std::size_t>(i + kBefore)] = within;
+          some = some || within;
+        }
+        if (some) sphere.rows.push_back(row), sphere.at.push_back({j, k});
+      }
     }
   }
-  return false;
 }
 
-bool Occupancy::occupied(Float4 p) const {
-  const Int4 at = whole((p - lanes(low_)) * all4(inverse_));
-  const IVec3 c{at[0], at[1], at[2]};
-  if (!inside(c, kMargin)) return false;  // wood is farther inside than r
-  const IVec3 low = c - kReach;
-  const Window& window = kWindows[static_cast<std::size_t>((low.y & 3) << 4 | (low.z & 3) << 2 | (low.x & 3))];
-  const auto row = static_cast<std::size_t>(blocks_.x), layer = row * static_cast<std::size_t>(blocks_.z);
-  const std::size_t first = block(low >> 2);
-  const std::array<std::size_t, 8> blocks{
-      first,         first + 1,         first + row,         first + row + 1,
-      first + layer, first + layer + 1, first + layer + row, first + layer + row + 1};
+void Occupancy::lay_out(IVec3 first, IVec3 cells) {
+  first_ = first, cells_ = cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t f = first[axis];
+    first4_[axis] = Int4{f, f, f, f};
+  }
+  for (Sphere& sphere : spheres_) {
+    sphere.offsets.clear();
+    for (const IVec2 at : sphere.at) {
+      sphere.offsets.push_back((static_cast<std::ptrdiff_t>(at.x) * cells.z + at.y) * cells.x - kBefore);
+    }
+  }
+}
 
-  std::array<std::uint64_t, 8> cells;
-  unsigned some = 0;  // bit i: block i holds wood that is near enough to be measured
-  for (unsigned i = 0; i < 8; ++i) {
-    cells[i] = bits_[blocks[i]] & window.cells[i];
-    some |= static_cast<unsigned>(cells[i] != 0) << i;
+void Occupancy::close() {
+  const std::size_t layer = static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.z);
+  const auto width = static_cast<std::size_t>(cells_.x);
+  taken_.resize(layer * static_cast<std::size_t>(cells_.y) + kRow);
+  const auto at = [&](int cell, int axis) {
+    return static_cast<float>(cell + first_[axis] - static_cast<int>(kOrigin)) * cell_m_;
+  };
+  const int ground = std::clamp(static_cast<int>(kOrigin) - first_.y, 0, cells_.y);
+  std::fill_n(taken_.begin(), layer * static_cast<std::size_t>(ground), kClosed);
+  const auto above = taken_.begin() + static_cast<std::ptrdiff_t>(layer * static_cast<std::size_t>(ground));
+  if (!region_) {
+    std::fill(above, taken_.end(), std::uint8_t{0});
+    return;
   }
-  if (cells[window.own_block] & window.own) return true;
-  const Vec3 place = vec3(p);
-  if (near(place, blocks[window.own_block], cells[window.own_block])) return true;
-  for (some &= ~(1u << window.own_block); some != 0; some &= some - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(some));
-    if (near(place, blocks[i], cells[i])) return true;
+  const crowns::CrownRegion& r = *region_;
+  row_.resize(static_cast<std::size_t>(r.cells.x));
+  columns_.clear();
+  for (int i = 0; i < cells_.x; ++i) {
+    const VoxelRange x = touched(at(i, 0), at(i + 1, 0), r.low.x, r.voxel_m, r.cells.x);
+    columns_.push_back(x);
   }
-  return false;
+  const auto layers = [&](int j) {
+    return touched(std::min(at(j, 1), lid_m_), std::min(at(j + 1, 1), lid_m_), r.low.y, r.layer_m, r.cells.y);
+  };
+  const auto rows = [&](int k) { return touched(at(k, 2), at(k + 1, 2), r.low.z, r.voxel_m, r.cells.z); };
+  VoxelRange y_before{0, -2};
+  for (int j = ground; j < cells_.y; ++j) {
+    std::uint8_t* to = taken_.data() + static_cast<std::size_t>(j) * layer;
+    const VoxelRange y = layers(j);
+    if (y == y_before) {
+      std::memcpy(to, to - layer, layer);
+      continue;
+    }
+    y_before = y;
+    VoxelRange z_before{0, -2};
+    for (int k = 0; k < cells_.z; ++k, to += width) {
+      const VoxelRange z = rows(k);
+      if (z == z_before) {
+        std::memcpy(to, to - width, width);
+        continue;
+      }
+      z_before = z;
+      std::fill(row_.begin(), row_.end(), std::uint8_t{0});
+      for (int b = y.first; b <= y.last; ++b) {
+        for (int c = z.first; c <= z.last; ++c) {
+          std::size_t bit = r.index({0, b, c});
+          for (std::uint8_t& voxel : row_) voxel |= r.bits[bit >> 6] >> (bit & 63) & 1u, ++bit;
+        }
+      }
+      for (std::size_t i = 0; i < width; ++i) {
+        std::uint8_t open = 0;
+        for (int a = columns_[i].first; a <= columns_[i].last; ++a) open |= row_[static_cast<std::size_t>(a)];
+        to[i] = open ? 0 : kClosed;
+      }
+    }
+  }
+}
+
+void Occupancy::make_room(IVec3 c) {
+  const IVec3 old_first = first_, old_cells = cells_;
+  IVec3 first = first_, end = first_ + cells_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int more = cells_[axis] / 4;
+    if (c[axis] - margin_ < first[axis]) first[axis] = c[axis] - margin_ - more;
+    if (c[axis] + margin_ >= end[axis]) end[axis] = c[axis] + margin_ + 1 + more;
+  }
+  old_.swap(taken_);
+  lay_out(first, end - first);
+  close();
+  const IVec3 moved = old_first - first;
+  const auto width = static_cast<std::size_t>(old_cells.x);
+  const std::uint8_t* from = old_.data();
+  for (int j = 0; j < old_cells.y; ++j) {
+    for (int k = 0; k < old_cells.z; ++k, from += width) {
+      std::memcpy(taken_.data() + index(IVec3{0, j, k} + moved), from, width);
+    }
+  }
+}
+
+void Occupancy::change(IVec3 half_cell, bool more) {
+  const IVec3 c = half_cell >> 1;
+  const IVec3 low = c - first_ - margin_, high = first_ + cells_ - margin_ - 1 - c;
+  if (std::min({low.x, low.y, low.z, high.x, high.y, high.z}) < 0) make_room(c);
+  const std::size_t eighth =
+      static_cast<std::size_t>((half_cell.x & 1) | (half_cell.y & 1) << 1 | (half_cell.z & 1) << 2);
+  const Sphere& sphere = spheres_[eighth];
+  std::uint8_t* const at = taken_.data() + index(c - first_);
+  (more ? count_rows<1> : count_rows<-1>)(at, sphere.rows.data(), sphere.offsets.data(), sphere.rows.size());
+}
+
+void Occupancy::move(const Vec3& from, const Vec3& to) {
+  const IVec3 before = half_cell(from), after = half_cell(to);
+  if (before == after) return;
+  change(before, false), change(after, true);
+}
+
+bool Occupancy::occupied(const Vec3& p) const {
+  const Vec3 q = p * inverse_ + kOrigin;
+  const Vec3 low = Vec3(first_), high = Vec3(first_ + cells_);
+  if (!(q.x >= low.x && q.y >= low.y && q.z >= low.z && q.x < high.x && q.y < high.y && q.z < high.z)) return false;
+  return taken_[index(IVec3(q) - first_)] != 0;
 }
 
 }  // namespace bosquet::growth

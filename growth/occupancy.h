@@ -1,80 +1,100 @@
-// Occupancy: where living wood stands so near that nothing new may grow.
+// Occupancy: where nothing new may grow, for living wood stands too near or the place is not the tree's.
 //
 // Source    Runions et al. 2007 (kill distance); Longay 2014, 4.2.1: a sphere of radius r around every node
 // Decision  every node of living wood occupies, whatever its bud does; shedding frees it
-// Layout    cells of a little under r / sqrt(3), so that a cell that holds a node is occupied as a whole; one bit a
-//           cell, a word for a block of 4 x 4 x 4: what may stand within r of a place is in the bits of eight words,
-//           and only nodes of cells that hold some are measured. The first node of a cell stands in the cell's entry,
-//           further ones in a list; the grid grows when wood leaves it
+// Decision  space is told in cells of r / 3: a cell is occupied when its middle is nearer than r to a node, the node set
+//           in the middle of its eighth of a cell. Cells stand at the tree's base whatever the room, so the room
+//           changes no tree
+// Layout    one byte a cell: how many nodes occupy it, or kClosed: below ground, or no voxel of the crown region
+//           touches it. A cell that 255 nodes occupy is closed for good. A node's sphere is added in rows of 16 cells;
+//           around wood there is always room enough for what its buds perceive; the grid grows when wood leaves it
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/vec.h"
+#include "crowns/crown_region.h"
 #include "growth/lanes.h"
 
 namespace bosquet::growth {
 
+/// Some voxels along an axis; none when first > last.
+struct VoxelRange {
+  int first, last;
+  bool operator==(const VoxelRange&) const = default;
+};
+
+/// Cells of a sphere: 1 where occupied.
+struct alignas(16) OccupiedRow {
+  std::array<std::uint8_t, 16> cells;
+};
+
 class Occupancy {
  public:
-  void reset(const Box3& room, float radius_m);
+  static constexpr float kCell = 1.0f / 3.0f;  ///< in r
+  static constexpr std::uint8_t kClosed = 255;
 
-  void add(std::int32_t node, const Vec3& p);
-  void remove(std::int32_t node);
+  /// `room` is where wood is expected, `reach_m` how far from it markers stand. The region (may be null: none is closed
+  /// but below ground) must outlive the use; above `lid_m` its layer there goes on. `least_cell_m` bounds the memory.
+  void reset(const Box3& room, float radius_m, float reach_m, const crowns::CrownRegion* region = nullptr,
+             float lid_m = 0.0f, float least_cell_m = 0.0f);
 
-  /// Tells the memory that occupied(p) will be asked.
-  void expect(Float4 p) const {
-    const Int4 at = whole((p - lanes(low_)) * all4(inverse_));
-    const IVec3 c{at[0], at[1], at[2]};
-    if (inside(c, 0)) __builtin_prefetch(&first_[place(c).entry()]);
+  void add(const Vec3& node) { change(half_cell(node), true); }
+  void remove(const Vec3& node) { change(half_cell(node), false); }
+  void move(const Vec3& from, const Vec3& to);
+
+  float cell_m() const { return cell_m_; }
+
+  /// Four places within reach of wood: their cells.
+  Int4 cells_of(Float4 x, Float4 y, Float4 z) const {
+    const Int4 i = whole(x * all4(inverse_) + all4(kOrigin)) - first4_[0];
+    const Int4 j = whole(y * all4(inverse_) + all4(kOrigin)) - first4_[1];
+    const Int4 k = whole(z * all4(inverse_) + all4(kOrigin)) - first4_[2];
+    return (j * cells_.z + k) * cells_.x + i;
   }
-  /// True when a node stands nearer than r.
-  bool occupied(Float4 p) const;
-  bool occupied(const Vec3& p) const { return occupied(lanes(p)); }
+  /// 0: free; kClosed; else the number of nodes that occupy it.
+  std::uint8_t state(std::int32_t cell) const { return taken_[static_cast<std::size_t>(cell)]; }
+
+  /// May nothing stand at p, anywhere? Beyond the grid all is as if free.
+  bool occupied(const Vec3& p) const;
 
  private:
-  struct Entry {
-    Vec3 at;
-    std::int32_t node;
-  };
-  struct Place {
-    std::size_t block;
-    int bit;
-    std::size_t entry() const { return block * 64 + static_cast<std::size_t>(bit); }
+  static constexpr float kOrigin = 32768.0f;  ///< in cells, so that numbers are positive and the same in every room
+  static constexpr int kRow = 16;
+  static constexpr int kBefore = 4;  ///< cells of a sphere's row before its node's
+  struct Sphere {
+    std::vector<OccupiedRow> rows;
+    std::vector<IVec2> at;                ///< of each row, j and k from the node's cell
+    std::vector<std::ptrdiff_t> offsets;  ///< the same in the present grid
   };
 
-  /// Cells outside the grid are far from 0 .. cells: negative, or beyond.
-  IVec3 cell(const Vec3& p) const {
-    const Vec3 q = (p - low_) * inverse_;
-    return {static_cast<int>(q.x), static_cast<int>(q.y), static_cast<int>(q.z)};
+  IVec3 half_cell(const Vec3& p) const {
+    const Int4 h = whole(lanes(p) * all4(2.0f * inverse_) + all4(2.0f * kOrigin));
+    return {h[0], h[1], h[2]};
   }
-  bool inside(IVec3 c, int margin) const {
-    const auto m = static_cast<unsigned>(margin);
-    return static_cast<unsigned>(c.x) - m < static_cast<unsigned>(cells_.x) - 2 * m &&
-           static_cast<unsigned>(c.y) - m < static_cast<unsigned>(cells_.y) - 2 * m &&
-           static_cast<unsigned>(c.z) - m < static_cast<unsigned>(cells_.z) - 2 * m;
+  std::size_t index(IVec3 c) const {
+    return (static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells_.z) + static_cast<std::size_t>(c.z)) *
+               static_cast<std::size_t>(cells_.x) +
+           static_cast<std::size_t>(c.x);
   }
-  std::size_t block(IVec3 b) const {
-    return (static_cast<std::size_t>(b.y) * static_cast<std::size_t>(blocks_.z) + static_cast<std::size_t>(b.z)) *
-               static_cast<std::size_t>(blocks_.x) +
-           static_cast<std::size_t>(b.x);
-  }
-  Place place(IVec3 c) const { return {block(c >> 2), (c.y & 3) << 4 | (c.z & 3) << 2 | (c.x & 3)}; }
-  bool near(const Vec3& p, std::size_t block, std::uint64_t cells) const;
-  void lay_out(const Box3& room);
-  void link(std::int32_t node, IVec3 c);
+  void change(IVec3 half_cell, bool more);
+  void make_spheres();
+  void lay_out(IVec3 first, IVec3 cells);
+  void close();
+  void make_room(IVec3 cell);
 
-  float radius_m_ = 1.0f, cell_m_ = 1.0f, inverse_ = 1.0f;
-  Vec3 low_{0.0f};
-  IVec3 cells_{0}, blocks_{0};
-  Box3 room_;
-  std::vector<std::uint64_t> bits_;    ///< by block: cells that hold a node
-  std::vector<Entry> first_;           ///< by cell; valid where its bit is set
-  std::vector<std::int32_t> next_;     ///< by node: next one in its cell, -1 at the end
-  std::vector<std::int64_t> cell_of_;  ///< by node: its cell's entry, -1 when it is not here
-  std::vector<Vec3> at_;               ///< by node
+  float radius_m_ = 0.0f, cell_m_ = 1.0f, inverse_ = 1.0f, lid_m_ = 0.0f;
+  const crowns::CrownRegion* region_ = nullptr;
+  int margin_ = 0;    ///< cells around wood that must exist
+  IVec3 first_{0};    ///< lowest cell
+  Int4 first4_[3]{};  ///< its coordinates, each four times
+  IVec3 cells_{0};
+  std::vector<std::uint8_t> taken_, old_;  ///< and kRow more
+  std::array<Sphere, 8> spheres_;          ///< by the node's eighth of its cell
+  std::vector<std::uint8_t> row_;          ///< of region voxels
+  std::vector<VoxelRange> columns_;        ///< voxels that each column of cells touches
 };
 
 }  // namespace bosquet::growth

@@ -6,37 +6,39 @@
 // Decision  markers below ground or outside the region are never claimed. Laterals claim none below the clear stem
 // Decision  until a marker is perceived for the first time, stems grow on straight as far as the highest one: the trunk
 //           of a tree whose crown was painted in the air
+#include "growth/directions.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
 
-void claim_painted(Tree& tree) {
+void claim_painted(Tree& tree, std::span<const std::int32_t> living) {
   Buds& buds = tree.buds;
-  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
-  for (const Competitor& c : tree.competing) {
-    const auto b = static_cast<std::size_t>(c.bud);
-    buds.claimed[b] = Vec3{0.0f}, buds.claims[b] = 0;
+  tree.competing.clear();
+  for (const std::int32_t bud : living) {
+    Bud& b = buds[static_cast<std::size_t>(bud)];
+    b.claims = 0;
+    tree.competing.push_back({b.at, bud, b.direction});
   }
+  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
   std::size_t kept = 0;
   for (const Vec3& marker : tree.markers) {
     if (tree.occupancy.occupied(marker)) continue;  // consumed
     tree.markers[kept++] = marker;
     const std::int32_t winner = tree.competitors.nearest(marker, tree.reach_m, kNone);
     if (winner < 0) continue;
-    const auto w = static_cast<std::size_t>(winner);
-    if (buds.order[w] > 0 && marker.y <= tree.input->clear_stem_m) continue;
-    buds.claimed[w] += normalised_or(marker - buds.at[w], Vec3{0.0f});
-    ++buds.claims[w];
+    const Bud& w = buds[static_cast<std::size_t>(winner)];
+    if (w.order > 0 && marker.y <= tree.input->clear_stem_m) continue;
+    claim(tree, winner, normalised_or(marker - w.at, Vec3{0.0f}));
     tree.found_marker = true;
   }
   tree.work.markers_tested += tree.markers.size();
   tree.markers.resize(kept);
 
   if (tree.found_marker) return;
-  for (const Competitor& c : tree.competing) {
-    const auto b = static_cast<std::size_t>(c.bud);
-    if (buds.order[b] > 0 || buds.state[b] != BudState::terminal || buds.at[b].y >= tree.highest_marker_m) continue;
-    buds.claimed[b] = buds.direction[b], buds.claims[b] = 1;
+  for (const std::int32_t bud : living) {
+    const Bud& b = buds[static_cast<std::size_t>(bud)];
+    if (b.order > 0 || b.state != BudState::terminal || b.at.y >= tree.highest_marker_m) continue;
+    claim(tree, bud, b.direction);
   }
 }
 

@@ -29,10 +29,11 @@ std::vector<float> radii(const Skeleton& s, int season) {
   const std::vector<double> carried = pipes(s, season < 0 ? s.seasons : season);
   std::vector<float> radius(s.size());
   const float inverse = 1.0f / s.pipe_exponent;
+  const auto thick = [&](double pipes) { return 0.5f * s.tip_diameter_m * pow(static_cast<float>(pipes), inverse); };
+  std::array<float, 32> few{};  // most internodes carry few
+  for (std::size_t n = 1; n < few.size(); ++n) few[n] = thick(static_cast<double>(n));
   for (std::size_t i = 0; i < s.size(); ++i) {
-    if (carried[i] > 0.0) {
-      radius[i] = 0.5f * s.tip_diameter_m * pow(static_cast<float>(carried[i]), inverse);
-    }
+    radius[i] = carried[i] < few.size() ? few[static_cast<std::size_t>(carried[i])] : thick(carried[i]);
   }
   return radius;
 }

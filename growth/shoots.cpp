@@ -6,6 +6,7 @@
 // Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
 //           the bud's node turns rigidly about the node, away from the bud, base first
 // Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
+// Decision  a bud that has been without space or light for bud_life_seasons dies
 // Decision  space is competed for again before each metamer; a bud without a marker ends its shoot, and so does one
 //           that would grow into the ground, or out of its region when it already stands outside (the trunk may)
 // Decision  a metamer that would leave the region grows straight to its free space instead; a trunk rises along the
@@ -13,8 +14,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "core/scalar.h"
+#include "growth/directions.h"
 #include "growth/gravimorphism.h"
 #include "growth/tree.h"
 
@@ -86,7 +89,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
     }
   }
   const float bole_m = std::max(p.bole * tree.input->max_height_m, tree.input->clear_stem_m);
-  if (tree.wood.order[c] == 0 && buds.at[tip].y < bole_m) count = 0;
+  if (tree.wood.order[c] == 0 && buds[tip].at.y < bole_m) count = 0;
   if (p.planar) count = std::min(count, 2);  // a plane has two sides
   tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
   tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
@@ -98,15 +101,15 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   const Habit& habit = tree.habit(order);
   Vec3 side = normalised_or(buds.side[tip] - glm::dot(buds.side[tip], heading) * heading, basis_around(heading).x);
   if (count > 0) {
-    const SinCos between = sin_cos(2.0f * kPi / static_cast<float>(count));
+    const SinCos between = tree.between_buds[static_cast<std::size_t>(count)];
     Vec3 azimuth = side;
     for (int i = 0; i < count; ++i) {
       const Vec3 direction = heading * habit.branching_cos + azimuth * habit.branching_sin;
-      const std::int32_t bud = buds.push_back(buds.at[tip], direction, buds.node[tip], order, BudState::lateral);
+      const std::int32_t bud = buds.push_back(buds[tip].at, direction, buds[tip].node, order, BudState::lateral);
       const auto b = static_cast<std::size_t>(bud);
       buds.carrier[b] = carrier;
-      buds.factor[b] = bud_factor(habit, heading, azimuth, x);
-      buds.sky[b] = buds.sky[tip];
+      buds[b].factor = bud_factor(habit, heading, azimuth, x);
+      buds[b].sky = buds[tip].sky;
       tree.living.push_back(bud);
       azimuth = p.planar ? -azimuth : turned(azimuth, heading, between.sin, between.cos);
     }
@@ -116,10 +119,10 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   if (p.planar || (count <= 1 && p.phyllotaxis == Phyllotaxis::distichous)) {
     side = -side;
   } else if (count > 1) {
-    const SinCos half = sin_cos(kPi / static_cast<float>(count));
+    const SinCos half = tree.between_buds[2 * static_cast<std::size_t>(count)];
     side = turned(side, heading, half.sin, half.cos);
   } else if (count == 1 || !shoot_end) {
-    const SinCos turn = sin_cos(radians(p.phyllotactic_angle_deg));
+    const SinCos turn = tree.phyllotactic;
     side = turned(side, heading, turn.sin, turn.cos);
   }
   buds.side[tip] = side;
@@ -128,11 +131,11 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
 /// A lateral bud becomes the tip of a new axis.
 void start_axis(Tree& tree, std::size_t bud) {
   Buds& buds = tree.buds;
-  buds.state[bud] = BudState::terminal;
+  buds[bud].state = BudState::terminal;
   buds.axis[bud] = tree.axes++;
   tree.tip_of.push_back(static_cast<std::int32_t>(bud));
   // The first bud stands to a side, level, so that two-ranked branches are flat sprays.
-  const Vec3 h = buds.direction[bud];
+  const Vec3 h = buds[bud].direction;
   const Vec3 level = normalised_or(glm::cross(h, kUp), basis_around(h).x);
   buds.side[bud] = tree.parameters->planar  ? normalised_or(Vec3{h.y, -h.x, 0.0f}, Vec3{1.0f, 0.0f, 0.0f})
                    : tree.random.bits() & 1 ? level
@@ -144,9 +147,9 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   Buds& buds = tree.buds;
   Skeleton& wood = tree.wood;
   const auto b = static_cast<std::size_t>(g.bud);
-  const Habit& habit = tree.habit(buds.order[b]);
+  const Habit& habit = tree.habit(buds[b].order);
 
-  const Vec3 h = buds.direction[b];
+  const Vec3 h = buds[b].direction;
   const Vec3 space = normalised_or(buds.claimed[b], h);
   const Vec3 s = set_point(tree, habit, h);
   const auto toward = [&](const Vec3& tropism) {
@@ -154,53 +157,53 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
     if (tree.parameters->planar) heading.z = 0.0f;
     return normalised_or(heading, h);
   };
-  const Vec3 at = buds.at[b];
+  const Vec3 at = buds[b].at;
   Vec3 heading = toward(pressed(tree, s));
-  if (buds.order[b] == 0 && tree.leans && !in_region(tree, at + tree.occupied_m * heading)) heading = toward(s);
-  const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;
+  if (buds[b].order == 0 && tree.leans && !in_region(tree, at + tree.occupied_m * heading)) heading = toward(s);
+  const float ground = buds[b].order == 0 ? 0.0f : tree.input->clear_stem_m;
   if (at.y + tree.length_m * heading.y < ground) return false;
   // A metamer that would leave the region turns to the free space in it; a trunk rises along the border, or back to it.
   const auto stays = [&](const Vec3& way) {
     heading = way;
     return in_region(tree, at + tree.length_m * way);
   };
-  if (!stays(heading) && !stays(space) && buds.order[b] == 0 &&
+  if (!stays(heading) && !stays(space) && buds[b].order == 0 &&
       !stays(normalised_or(habit.alpha * h + (1.0f - habit.alpha) * kUp, kUp)) && !stays(kUp)) {
     stays(normalised_or(kUp + normalised_or({-at.x, 0.0f, -at.z}, kUp), kUp));
   }
   const Vec3 end = at + tree.length_m * heading;
 
   if (end.y < ground) return false;
-  if (buds.order[b] > 0 && !in_region(tree, end) && !in_region(tree, at)) return false;
+  if (buds[b].order > 0 && !in_region(tree, end) && !in_region(tree, at)) return false;
 
-  const bool new_axis = buds.state[b] == BudState::lateral;
+  const bool new_axis = buds[b].state == BudState::lateral;
   if (new_axis) start_axis(tree, b);
   const auto internode = static_cast<std::int32_t>(wood.size());
-  const std::int32_t below = buds.node[b];
+  const std::int32_t below = buds[b].node;
   wood.parent.push_back(below);
   wood.axis.push_back(buds.axis[b]);
-  wood.order.push_back(buds.order[b]);
+  wood.order.push_back(buds[b].order);
   wood.distal.push_back(end);
   wood.born.push_back(static_cast<std::uint16_t>(tree.season));
   wood.shed.push_back(kNever);
   wood.light.push_back(1.0f);
-  wood.vigor.push_back(buds.vigor[b]);
-  tree.internodes.push_back(heading);
+  wood.vigor.push_back(buds[b].vigor);
+  tree.internodes.push_back(heading, below, buds[b].order);
   if (!new_axis && below >= 0) {
-    tree.internodes.next[static_cast<std::size_t>(below)] = internode;
+    tree.internodes[static_cast<std::size_t>(below)].next = internode;
     set_lateral_buds(tree, internode, b, g);
   } else {
     tree.internodes.first_bud.back() = static_cast<std::int32_t>(buds.size());
   }
 
-  buds.node[b] = internode;
-  buds.at[b] = end;
-  buds.direction[b] = heading;
+  buds[b].node = internode;
+  buds[b].at = end;
+  buds[b].direction = heading;
   buds.side[b] = normalised_or(buds.side[b] - glm::dot(buds.side[b], heading) * heading, basis_around(heading).x);
-  buds.factor[b] = 1.0f;
-  if (tree.input->light) buds.sky[b] = tree.input->light->at(end);
+  buds[b].factor = 1.0f;
+  if (tree.input->light) buds[b].sky = tree.input->light->at(end);
   tree.shadow.cast(end);
-  tree.occupancy.add(internode, end);
+  tree.occupancy.add(end);
   ++tree.work.shadow_updates;
   tree.height_m = std::max(tree.height_m, end.y);
   return true;
@@ -211,7 +214,7 @@ bool turns_out(const Tree& tree, std::int32_t first, const Vec3& axis, float sin
   if (!tree.input->region) return false;
   const Skeleton& wood = tree.wood;
   const Vec3 pivot = wood.proximal(static_cast<std::size_t>(first));
-  for (std::int32_t i = first; i >= 0; i = tree.internodes.next[static_cast<std::size_t>(i)]) {
+  for (std::int32_t i = first; i >= 0; i = tree.internodes[static_cast<std::size_t>(i)].next) {
     const Vec3& end = wood.distal[static_cast<std::size_t>(i)];
     if (in_region(tree, end) && !in_region(tree, pivot + turned(end - pivot, axis, sin, cos))) return true;
   }
@@ -226,50 +229,54 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
   const auto f = static_cast<std::size_t>(first);
   const Vec3 pivot = wood.proximal(f);
   const auto move_bud = [&](std::size_t b, const Vec3& at) {
-    buds.at[b] = at;
-    buds.direction[b] = turned(buds.direction[b], axis, sin, cos);
+    buds[b].at = at;
+    buds[b].direction = turned(buds[b].direction, axis, sin, cos);
     buds.side[b] = turned(buds.side[b], axis, sin, cos);
-    if (tree.input->light) buds.sky[b] = tree.input->light->at(at);
+    if (tree.input->light) buds[b].sky = tree.input->light->at(at);
   };
-  for (std::int32_t i = first; i >= 0; i = in.next[static_cast<std::size_t>(i)]) {
+  for (std::int32_t i = first; i >= 0; i = in[static_cast<std::size_t>(i)].next) {
     const auto n = static_cast<std::size_t>(i);
     if (i != first) {
       for (int k = 0; k < in.buds[n]; ++k) {
         move_bud(static_cast<std::size_t>(in.first_bud[n] + k), wood.proximal(n));
       }
     }
-    tree.shadow.take_back(wood.distal[n]);
-    tree.occupancy.remove(i);
-    wood.distal[n] = pivot + turned(wood.distal[n] - pivot, axis, sin, cos);
+    const Vec3 before = wood.distal[n];
+    tree.shadow.take_back(before);
+    wood.distal[n] = pivot + turned(before - pivot, axis, sin, cos);
     in.heading[n] = turned(in.heading[n], axis, sin, cos);
     tree.shadow.cast(wood.distal[n]);
-    tree.occupancy.add(i, wood.distal[n]);
+    tree.occupancy.move(before, wood.distal[n]);
     ++tree.work.shadow_updates;
     tree.height_m = std::max(tree.height_m, wood.distal[n].y);
-    if (in.next[n] < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
+    if (in[n].next < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
   }
 }
 
 }  // namespace
 
 bool choose_growing(Tree& tree) {
-  Buds& buds = tree.buds;
   tree.growing.clear();
   const float greatest = tree.greatest_vigor;
+  const bool painted = !tree.input->markers.empty();  // then buds wait for the next stroke
+  const int life = painted ? std::numeric_limits<int>::max() : tree.parameters->bud_life_seasons;
+  std::size_t living = 0;
   for (const std::int32_t bud : tree.living) {
-    const auto b = static_cast<std::size_t>(bud);
-    const float share = greatest > 0.0f ? std::min(1.0f, buds.flow[b] / greatest) : 0.0f;
-    buds.vigor[b] = share;
+    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    b.vigor = greatest > 0.0f ? std::min(1.0f, b.flow / greatest) : 0.0f;
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
-    if (buds.node[b] < 0 && buds.claims[b] == 0) buds.claims[b] = 1, buds.claimed[b] = buds.direction[b];
-    const int n = buds.claims[b] > 0 ? static_cast<int>(share * longest_shoot(tree, buds.order[b])) : 0;
-    if (n == 0) {
-      ++buds.idle[b];
+    if (b.node < 0 && b.claims == 0) claim(tree, bud, b.direction);
+    const int n = b.claims > 0 ? static_cast<int>(b.vigor * longest_shoot(tree, b.order)) : 0;
+    if (n > 0) {
+      b.idle = 0;
+      tree.growing.push_back({bud, n, 0, b.state == BudState::terminal});
+    } else if (++b.idle >= life) {
+      b.state = BudState::dead;
       continue;
     }
-    buds.idle[b] = 0;
-    tree.growing.push_back({bud, n, 0, buds.state[b] == BudState::terminal});
+    tree.living[living++] = bud;
   }
+  tree.living.resize(living);
   return !tree.growing.empty();
 }
 
@@ -277,11 +284,11 @@ void deflect(Tree& tree) {
   Buds& buds = tree.buds;
   for (const GrowingBud& g : tree.growing) {
     const auto b = static_cast<std::size_t>(g.bud);
-    if (buds.state[b] != BudState::lateral) continue;
+    if (buds[b].state != BudState::lateral) continue;
     const auto carrier = static_cast<std::size_t>(buds.carrier[b]);
-    const Habit& habit = tree.habit(buds.order[b]);
+    const Habit& habit = tree.habit(buds[b].order);
     if (habit.deflection_sin == 0.0f || tree.wood.born[carrier] + 1 != tree.season) continue;
-    const Vec3 axis = glm::cross(buds.direction[b], tree.internodes.heading[carrier]);
+    const Vec3 axis = glm::cross(buds[b].direction, tree.internodes.heading[carrier]);
     const float length = std::sqrt(glm::dot(axis, axis));
     if (length < 1e-4f) continue;
     const Vec3 about = axis / length;
@@ -295,7 +302,7 @@ bool extend(Tree& tree) {
     if (!first) compete_for_space_again(tree);
     std::size_t kept = 0;
     for (GrowingBud g : tree.growing) {
-      if (tree.buds.claims[static_cast<std::size_t>(g.bud)] == 0 || !add_metamer(tree, g)) continue;
+      if (tree.buds[static_cast<std::size_t>(g.bud)].claims == 0 || !add_metamer(tree, g)) continue;
       if (++g.made < g.planned) tree.growing[kept++] = g;
     }
     tree.growing.resize(kept);

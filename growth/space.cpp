@@ -6,10 +6,13 @@
 //           nowhere
 // Decision  a bud drops 1 + floor(marker_rate * v / v_max) markers, v of the last season; before later metamers only
 //           the buds still growing drop and claim
+// Decision  a bud competes when one of its own markers may stand: who saw no room takes none from those who did
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include "growth/directions.h"
 #include "growth/lanes.h"
 #include "growth/tree.h"
 
@@ -18,6 +21,8 @@ namespace {
 
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
+
+constexpr std::size_t kFetchAhead = 6;  ///< buds
 
 /// in_region() for many places, ready for use.
 class RegionTest {
@@ -45,89 +50,109 @@ class RegionTest {
   Float4 low_{}, edge_{}, end_{}, lid_{};
 };
 
-void drop_and_claim(Tree& tree) {
-  if (!tree.input->markers.empty()) return claim_painted(tree);
-  Buds& buds = tree.buds;
-  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
-  const float rate = tree.parameters->marker_rate;
-  for (const Competitor& c : tree.competing) {
-    const auto b = static_cast<std::size_t>(c.bud);
-    buds.claimed[b] = Vec3{0.0f}, buds.claims[b] = 0;
+/// Drops the markers of a bud, after `count` others; returns how many there are then.
+std::size_t drop(Tree& tree, std::int32_t bud, std::size_t count) {
+  Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+  b.claims = 0;
+  const int markers = 1 + static_cast<int>(tree.parameters->marker_rate * b.vigor);
+  const Basis basis =
+      tree.parameters->planar
+          ? Basis{normalised_or({b.direction.y, -b.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
+          : basis_around(b.direction);
+  const Vec3 to_x = tree.occupied_m * basis.x, to_y = tree.occupied_m * basis.y, to_z = tree.occupied_m * b.direction;
+  const auto first = static_cast<std::uint32_t>(tree.random.bits()) % PerceptionSamples::kCount;
+  DroppedMarkers& d = tree.dropped;
+  for (int m = 0; m < markers; m += 4) {
+    // Four at once; what is too many of them the next ones overwrite.
+    const auto n = first + static_cast<std::uint32_t>(m);
+    const Float4 sx = tree.samples.x(n), sy = tree.samples.y(n), sz = tree.samples.z(n);
+    const Float4 x = all4(b.at.x) + (sx * all4(to_x.x) + sy * all4(to_y.x) + sz * all4(to_z.x));
+    const Float4 y = all4(b.at.y) + (sx * all4(to_x.y) + sy * all4(to_y.y) + sz * all4(to_z.y));
+    const Float4 z = all4(b.at.z) + (sx * all4(to_x.z) + sy * all4(to_y.z) + sz * all4(to_z.z));
+    store4(&d.x[count], x), store4(&d.y[count], y), store4(&d.z[count], z);
+    store4(&d.cell[count], tree.occupancy.cells_of(x, y, z));
+    store4(&d.bud[count], Int4{bud, bud, bud, bud});
+    count += static_cast<std::size_t>(std::min(4, markers - m));
   }
+  return count;
+}
+
+/// Where the tip of a trunk has room on its own axis, or above, when its region refuses most of its markers.
+void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, std::size_t first, std::size_t end) {
+  std::size_t refused = 0;
+  const DroppedMarkers& d = tree.dropped;
+  for (std::size_t i = first; i < end; ++i) {
+    refused += d.y[i] > 0.0f && !in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f});
+  }
+  if (2 * refused <= end - first) return;
+  const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+  for (const Vec3& ahead : {b.direction, kUp}) {
+    const Vec3 marker = b.at + kAhead * tree.occupied_m * ahead;
+    ++tree.work.markers_tested;
+    if (marker.y <= 0.0f || !in_its_region(lanes(marker)) || tree.occupancy.occupied(marker)) continue;
+    claim(tree, bud, ahead);
+    break;
+  }
+}
+
+void drop_and_claim(Tree& tree, std::span<const std::int32_t> dropping) {
   const RegionTest in_its_region(tree);
-  const Float4 radius = all4(tree.occupied_m);
-  // First all markers that may stand as far as ground and region know, then wood and buds: many places are looked up at
-  // once that way, and none has to wait for what became of the one before.
-  std::uint64_t tested = 0;
-  tree.dropped.clear();
-  for (const Competitor& c : tree.competing) {
-    const auto b = static_cast<std::size_t>(c.bud);
-    const int markers = 1 + static_cast<int>(rate * buds.vigor[b]);
-    const Basis basis =
-        tree.parameters->planar
-            ? Basis{normalised_or({c.direction.y, -c.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
-            : basis_around(c.direction);
-    const Float4 x = lanes(basis.x), y = lanes(basis.y), direction = lanes(c.direction), at = lanes(c.at);
-    const float ground = buds.order[b] == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
-    std::uint64_t bits = 0;
-    int refused = 0;  // by the region
-    tested += static_cast<std::uint64_t>(markers);
-    for (int m = 0; m < markers; ++m, bits >>= 12) {
-      if (m % 5 == 0) bits = tree.random.bits();
-      const Float4 offset = radius * tree.samples.at(static_cast<std::uint32_t>(bits), x, y, direction);
-      const Float4 marker = at + offset;
-      if (marker[1] <= ground) continue;
-      if (!in_its_region(marker)) {
-        ++refused;
-        continue;
-      }
-      tree.occupancy.expect(marker);
-      tree.dropped.push_back({marker, square(offset), c.bud, false});
-    }
-    if (2 * refused > markers && buds.order[b] == 0 && buds.state[b] == BudState::terminal) {
-      for (const Vec3& ahead : {c.direction, kUp}) {
-        const Float4 marker = lanes(c.at + kAhead * tree.occupied_m * ahead);
-        ++tested;
-        if (marker[1] <= ground || !in_its_region(marker) || tree.occupancy.occupied(marker)) continue;
-        tree.dropped.push_back({lanes(ahead), 0.0f, c.bud, true});
-        break;
-      }
+  DroppedMarkers& d = tree.dropped;
+  // First all markers are made, then they are looked up, then the few that stand are claimed: no step waits for another.
+  std::size_t count = 0;
+  d.make_room(dropping.size() * (1 + static_cast<std::size_t>(tree.parameters->marker_rate)) +
+              PerceptionSamples::kMost);
+  for (std::size_t n = 0; n < dropping.size(); ++n) {
+    const std::int32_t bud = dropping[n];
+    if (n + kFetchAhead < dropping.size())
+      __builtin_prefetch(&tree.buds[static_cast<std::size_t>(dropping[n + kFetchAhead])]);
+    const std::size_t first = count;
+    count = drop(tree, bud, count);
+    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, count);
+  }
+  tree.work.markers_tested += count;
+
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    d.free[free] = static_cast<std::int32_t>(i);
+    free += tree.occupancy.state(d.cell[i]) == 0;
+  }
+
+  tree.competing.clear();
+  std::size_t standing = 0;
+  for (std::size_t k = 0; k < free; ++k) {
+    const auto i = static_cast<std::size_t>(d.free[k]);
+    const Bud& b = tree.buds[static_cast<std::size_t>(d.bud[i])];
+    const float ground = b.order == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
+    if (d.y[i] <= ground || !in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f})) continue;
+    d.free[standing++] = d.free[k];
+    if (tree.competing.empty() || tree.competing.back().bud != d.bud[i]) {
+      tree.competing.push_back({b.at, d.bud[i], b.direction});
     }
   }
-  for (const DroppedMarker& d : tree.dropped) {
-    if (d.ahead) {
-      const auto b = static_cast<std::size_t>(d.bud);
-      buds.claimed[b] += vec3(d.at);
-      ++buds.claims[b];
-      continue;
-    }
-    if (tree.occupancy.occupied(d.at)) continue;
-    const std::int32_t winner = tree.competitors.nearest(vec3(d.at), std::sqrt(d.distance2), d.bud);
-    const auto w = static_cast<std::size_t>(winner);
-    buds.claimed[w] += normalised_or(vec3(d.at) - buds.at[w], Vec3{0.0f});
-    ++buds.claims[w];
+  tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
+  for (std::size_t k = 0; k < standing; ++k) {
+    const auto i = static_cast<std::size_t>(d.free[k]);
+    const Vec3 marker{d.x[i], d.y[i], d.z[i]};
+    const Vec3 to = marker - tree.buds[static_cast<std::size_t>(d.bud[i])].at;
+    const std::int32_t winner = tree.competitors.nearest(marker, std::sqrt(glm::dot(to, to)), d.bud[i]);
+    claim(tree, winner, normalised_or(marker - tree.buds[static_cast<std::size_t>(winner)].at, Vec3{0.0f}));
   }
-  tree.work.markers_tested += tested;
 }
 
 }  // namespace
 
 void compete_for_space(Tree& tree) {
-  tree.competing.clear();
-  for (const std::int32_t bud : tree.living) {
-    const auto b = static_cast<std::size_t>(bud);
-    tree.competing.push_back({tree.buds.at[b], bud, tree.buds.direction[b]});
-  }
-  drop_and_claim(tree);
+  if (!tree.input->markers.empty()) return claim_painted(tree, tree.living);
+  drop_and_claim(tree, tree.living);
 }
 
 void compete_for_space_again(Tree& tree) {
-  tree.competing.clear();
-  for (const GrowingBud& g : tree.growing) {
-    const auto b = static_cast<std::size_t>(g.bud);
-    tree.competing.push_back({tree.buds.at[b], g.bud, tree.buds.direction[b]});
-  }
-  drop_and_claim(tree);
+  tree.extending.clear();
+  for (const GrowingBud& g : tree.growing) tree.extending.push_back(g.bud);
+  if (!tree.input->markers.empty()) return claim_painted(tree, tree.extending);
+  drop_and_claim(tree, tree.extending);
 }
 
 }  // namespace bosquet::growth

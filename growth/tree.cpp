@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "core/scalar.h"
+#include "growth/directions.h"
 
 namespace bosquet::growth {
 namespace {
 
 constexpr float kLeastInternodes = 40.0f;  ///< h_max / l is kept at least this
 constexpr float kShadowCell = 2.0f;        ///< in l at detail 1
+constexpr float kMostCells = 600.0f;       ///< of the occupancy, from ground to top
 constexpr int kIdleSeasons = 3;            ///< seasons without a new internode after which growth ends
 
 /// Where wood may come to stand: in the region r, or where a free-standing tree's does.
@@ -43,37 +45,16 @@ void add_stem(Tree& tree, float lean, float azimuth) {
   buds.side[b] =
       tree.parameters->planar ? Vec3{direction.y, -direction.x, 0.0f} : around.x * first.cos + around.y * first.sin;
   buds.axis[b] = tree.axes++;
-  buds.sky[b] = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
+  buds[b].sky = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
   tree.tip_of.push_back(bud);
   tree.living.push_back(bud);
 }
 
 }  // namespace
 
-void Internodes::clear() {
-  next.clear(), first_bud.clear(), buds.clear(), heading.clear();
-  main_signal.clear(), lateral_signal.clear(), main_vigor.clear(), lateral_rate.clear();
-}
+void Internodes::clear() { each.clear(), first_bud.clear(), buds.clear(), heading.clear(); }
 
-void Internodes::push_back(const Vec3& h) {
-  next.push_back(kNone), first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
-  main_signal.push_back(0), lateral_signal.push_back(0), main_vigor.push_back(0), lateral_rate.push_back(0);
-}
-
-void Buds::clear() {
-  at.clear(), direction.clear(), side.clear(), node.clear(), carrier.clear(), axis.clear(), order.clear();
-  state.clear(), factor.clear(), sky.clear(), vigor.clear(), idle.clear(), signal.clear(), flow.clear();
-  claimed.clear(), claims.clear();
-}
-
-std::int32_t Buds::push_back(const Vec3& at_, const Vec3& direction_, std::int32_t node_, std::uint8_t order_,
-                             BudState state_) {
-  at.push_back(at_), direction.push_back(direction_), side.push_back(Vec3{0.0f}), node.push_back(node_);
-  carrier.push_back(kNone), axis.push_back(0), order.push_back(order_), state.push_back(state_);
-  factor.push_back(1.0f), sky.push_back(1.0f), vigor.push_back(0.0f), idle.push_back(0);
-  signal.push_back(0.0f), flow.push_back(0.0f), claimed.push_back(Vec3{0.0f}), claims.push_back(0);
-  return static_cast<std::int32_t>(node.size() - 1);
-}
+void Buds::clear() { each.clear(), side.clear(), carrier.clear(), axis.clear(), claimed.clear(); }
 
 void plant(Tree& tree, const GrowthInput& input) {
   const Parameters& p = *input.parameters;
@@ -87,6 +68,11 @@ void plant(Tree& tree, const GrowthInput& input) {
   tree.reach_m = (p.occupancy_radius + p.perception_depth) * length;
   tree.cos_perception = sin_cos(radians(0.5f * p.perception_angle_deg)).cos;
   tree.leans = input.asymmetry != Vec3{0.0f};
+  tree.phyllotactic = sin_cos(radians(p.phyllotactic_angle_deg));
+  tree.between_buds.clear();
+  for (int n = 0; n <= 2 * std::max(2, p.whorl); ++n) {
+    tree.between_buds.push_back(sin_cos(2.0f * kPi / static_cast<float>(std::max(1, n))));
+  }
   tree.phase = -2;
   tree.random = RandomStream(input.seed, input.key, Purpose::growth);
   tree.season = 0, tree.idle_seasons = 0, tree.finished = false;
@@ -101,7 +87,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
-  tree.standing.clear(), tree.failing.clear(), tree.counts.clear();
+  tree.standing.clear(), tree.failing.clear();
   tree.listed = 0;
 
   // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.
@@ -109,7 +95,9 @@ void plant(Tree& tree, const GrowthInput& input) {
   const float aside = kShadowCell * length * static_cast<float>(p.shadow_depth + 1);
   const Vec3 anchor = expected_room(input, nullptr, tree.reach_m).low - Vec3{aside, 0.0f, aside};
   tree.shadow.reset(room, anchor, kShadowCell * length, p.shadow_strength, p.shadow_falloff, p.shadow_depth);
-  tree.occupancy.reset(room, tree.occupied_m);
+  tree.occupancy.reset(room, tree.occupied_m, tree.reach_m, input.region,
+                       input.region ? input.max_height_m - input.region->layer_m : 0.0f,
+                       input.max_height_m / kMostCells);
   tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
 
   tree.markers.clear(), tree.found_marker = false, tree.highest_marker_m = 0.0f;
@@ -136,6 +124,7 @@ void update_habits(Tree& tree) {
   if (phase == tree.phase) return;
   tree.phase = phase;
   tree.habits = habits_at(*tree.parameters, share);
+  tabulate_light_response(tree);
 }
 
 void grow_season(Tree& tree) {
@@ -151,7 +140,6 @@ void grow_season(Tree& tree) {
     tall = extend(tree);
   }
   shed(tree);
-  bury_dead_buds(tree);
   tree.idle_seasons = tree.wood.size() > before ? 0 : tree.idle_seasons + 1;
   ++tree.season;
   tree.finished = tall || tree.idle_seasons >= kIdleSeasons || tree.season >= tree.parameters->max_seasons;

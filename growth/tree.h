@@ -7,10 +7,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/random.h"
+#include "core/scalar.h"
 #include "core/vec.h"
 #include "growth/grow.h"
 #include "growth/habit.h"
@@ -24,42 +27,68 @@ namespace bosquet::growth {
 inline constexpr std::int32_t kNone = -1;
 inline constexpr float kLeastLight = 1.0f / 256.0f;  ///< so that no bud's signal is zero
 
+/// What a season reads and writes of each standing internode, side by side: half a cache line.
+struct Internode {
+  std::int32_t parent = kNone;
+  std::int32_t next = kNone;  ///< continuation of the axis
+  std::int32_t count = 1;     ///< how many stand on it, itself included, before this season's
+  std::uint8_t order = 0;
+  float main_signal = 0, lateral_signal = 0;  ///< Q gathered at the upper end, by way; 0 once vigor is shared
+  float main_vigor = 0, lateral_rate = 0;     ///< v of the main way; v per Q of the lateral ways
+};
+
 /// Working data of internodes, beside the skeleton's.
 struct Internodes {
-  std::vector<std::int32_t> next;       ///< continuation of the axis, or kNone
+  std::vector<Internode> each;
   std::vector<std::int32_t> first_bud;  ///< lateral buds at the base: first_bud .. first_bud + buds
   std::vector<std::uint8_t> buds;
   std::vector<Vec3> heading;
-  // Signal of this season.
-  std::vector<float> main_signal, lateral_signal;  ///< Q gathered at the upper end, by way
-  std::vector<float> main_vigor, lateral_rate;     ///< v of the main way; v per Q of the lateral ways
 
+  Internode& operator[](std::size_t i) { return each[i]; }
+  const Internode& operator[](std::size_t i) const { return each[i]; }
   void clear();
-  void push_back(const Vec3& heading);
+  void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order) {
+    Internode& i = each.emplace_back();
+    i.parent = parent, i.order = order;
+    first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
+  }
 };
 
 enum class BudState : std::uint8_t { lateral, terminal, dead };
 
+/// What a season reads and writes of each living bud, side by side: a cache line.
+struct alignas(64) Bud {
+  Vec3 at{0.0f}, direction{0.0f};
+  std::int32_t node = kNone;  ///< internode at whose upper end it stands, kNone at the base
+  float factor = 1.0f;        ///< gravimorphism and acrotony, 1 for terminal buds
+  float sky = 1.0f;           ///< transmittance of other trees at the bud
+  float vigor = 0.0f;         ///< v / v_max of the last season
+  std::uint16_t idle = 0;     ///< seasons without space or light
+  std::uint8_t order = 0;     ///< of the axis that it makes or continues
+  BudState state = BudState::lateral;
+  // This season.
+  std::int32_t claims = 0;           ///< how many markers it got
+  float signal = 0.0f, flow = 0.0f;  ///< Q, v
+};
+
 struct Buds {
-  std::vector<Vec3> at, direction;
+  std::vector<Bud> each;
   std::vector<Vec3> side;             ///< across the axis: azimuth of the next lateral bud (of terminal buds)
-  std::vector<std::int32_t> node;     ///< internode at whose upper end it stands, kNone at the base
   std::vector<std::int32_t> carrier;  ///< lateral bud: the internode at whose base it stands
   std::vector<std::uint32_t> axis;    ///< terminal bud: its axis
-  std::vector<std::uint8_t> order;    ///< of the axis that it makes or continues
-  std::vector<BudState> state;
-  std::vector<float> factor;        ///< gravimorphism and acrotony, 1 for terminal buds
-  std::vector<float> sky;           ///< transmittance of other trees at the bud
-  std::vector<float> vigor;         ///< v / v_max of the last season
-  std::vector<std::uint16_t> idle;  ///< seasons without space or light
-  // This season.
-  std::vector<float> signal, flow;   ///< Q, v
-  std::vector<Vec3> claimed;         ///< sum of directions to markers
-  std::vector<std::int32_t> claims;  ///< how many
+  std::vector<Vec3> claimed;          ///< this season: sum of directions to markers; valid where there are claims
 
-  std::size_t size() const { return node.size(); }
+  Bud& operator[](std::size_t b) { return each[b]; }
+  const Bud& operator[](std::size_t b) const { return each[b]; }
+  std::size_t size() const { return each.size(); }
   void clear();
-  std::int32_t push_back(const Vec3& at, const Vec3& direction, std::int32_t node, std::uint8_t order, BudState state);
+  /// Written in place, number by number: whole vectors just written to memory would be waited for.
+  std::int32_t push_back(Vec3 at, Vec3 direction, std::int32_t node, std::uint8_t order, BudState state) {
+    Bud& b = each.emplace_back();
+    b.at = at, b.direction = direction, b.node = node, b.order = order, b.state = state;
+    side.emplace_back(0.0f), carrier.push_back(kNone), axis.push_back(0), claimed.emplace_back(0.0f);
+    return static_cast<std::int32_t>(each.size() - 1);
+  }
 };
 
 /// A bud that grows this season.
@@ -70,12 +99,16 @@ struct GrowingBud {
   bool continues;  ///< the axis was there before this season
 };
 
-/// A marker that ground and region let stand; or, for the tip of a trunk, the direction in which it has room.
-struct DroppedMarker {
-  Float4 at;
-  float distance2;  ///< to its bud
-  std::int32_t bud;
-  bool ahead;
+/// Markers of one round, bud by bud.
+struct DroppedMarkers {
+  std::vector<float> x, y, z;
+  std::vector<std::int32_t> cell;  ///< of the occupancy
+  std::vector<std::int32_t> bud;   ///< that dropped it
+  std::vector<std::int32_t> free;  ///< markers that nothing refuses
+  void make_room(std::size_t count) {
+    if (count <= x.size()) return;
+    x.resize(count), y.resize(count), z.resize(count), cell.resize(count), bud.resize(count), free.resize(count);
+  }
 };
 
 struct Tree {
@@ -88,6 +121,8 @@ struct Tree {
   float cos_perception = 0;  ///< of zeta / 2
   bool leans = false;        ///< V is not zero
   Habits habits{};
+  SinCos phyllotactic{};             ///< of phi
+  std::vector<SinCos> between_buds;  ///< by n: of a full turn over n
   int phase = -2;
   RandomStream random{0, 0, Purpose::growth};
 
@@ -97,7 +132,7 @@ struct Tree {
   bool finished = false;
   float height_m = 0;
   std::uint32_t axes = 0;
-  Skeleton wood;
+  Skeleton wood;  ///< while it grows vigor is v as last shared, of this season's wood its bud's v / v_max
   Internodes internodes;
   Buds buds;
   std::vector<std::int32_t> living;    ///< buds, in birth order
@@ -106,7 +141,8 @@ struct Tree {
   std::size_t listed = 0;              ///< internodes born before this season
   std::vector<std::int32_t> failing;   ///< of these, where branches begin that have too little vigor
   std::vector<GrowingBud> growing;
-  float greatest_vigor = 0;  ///< v_max
+  std::vector<std::int32_t> extending;  ///< buds of these
+  float greatest_vigor = 0;             ///< v_max
 
   // Where it stands.
   ShadowGrid shadow;
@@ -114,20 +150,17 @@ struct Tree {
   PerceptionSamples samples;
   CompetitorIndex competitors;
   std::vector<Competitor> competing;
-  std::vector<DroppedMarker> dropped;
-  std::vector<Vec3> markers;          ///< painted ones, not yet consumed
-  float highest_marker_m = 0;         ///< of those painted
-  bool found_marker = false;          ///< some bud perceived a painted one
-  std::vector<float> light_response;  ///< L^kappa for L = i / kLightSteps, for each distinct kappa
-  std::vector<std::int32_t> counts;   ///< by internode: how many stand on it, itself included, before this season's
+  DroppedMarkers dropped;
+  std::vector<Vec3> markers;               ///< painted ones, not yet consumed
+  float highest_marker_m = 0;              ///< of those painted
+  bool found_marker = false;               ///< some bud perceived a painted one
+  std::vector<float> light_response;       ///< L^kappa for L = i / kLightSteps, for each of the kappas met so far
+  std::vector<float> light_kappas;         ///< these
+  std::array<int, kOrders> light_table{};  ///< by order: where its own begins in light_response
   GrowthWork work;
 
-  /// v / v_max that reached internode i this season.
-  float vigor_share(std::size_t i) const {
-    if (greatest_vigor <= 0.0f) return 0.0f;
-    const float v = internodes.main_vigor[i] + internodes.lateral_rate[i] * internodes.lateral_signal[i];
-    return v / greatest_vigor;
-  }
+  /// From v to v / v_max of this season, for an internode that was there before.
+  void scale_vigor(std::size_t i) { wood.vigor[i] = greatest_vigor > 0.0f ? wood.vigor[i] / greatest_vigor : 0.0f; }
   const Habit& habit(std::uint8_t order) const {
     return habits[order < kOrders ? order : static_cast<std::size_t>(kOrders - 1)];
   }
@@ -157,27 +190,35 @@ void grow_season(Tree& tree);
 /// Reads the numbers in force at the tree's height.
 void update_habits(Tree& tree);
 
-/// Light at every living bud and the signal Q = b * L^kappa that it sends down (Longay 2014, eq. 4.7).
+/// Tables of L^kappa for the distinct kappas in force.
+void tabulate_light_response(Tree& tree);
+
+/// Light at every living bud and the signal Q = b * L^kappa that it tells its node (Longay 2014, eq. 4.7).
 void sense_light(Tree& tree);
 
 /// Markers dropped by the living buds, and who got them (space.cpp). `rest` is only those still growing.
 void compete_for_space(Tree& tree);
 void compete_for_space_again(Tree& tree);
-/// The same with painted markers: who of `competing` gets them (painted.cpp).
-void claim_painted(Tree& tree);
+/// The same with painted markers (painted.cpp).
+void claim_painted(Tree& tree, std::span<const std::int32_t> buds);
+/// One more marker, this way, for a bud.
+inline void claim(Tree& tree, std::int32_t bud, const Vec3& way) {
+  const auto b = static_cast<std::size_t>(bud);
+  Vec3& claimed = tree.buds.claimed[b];
+  claimed = tree.buds[b].claims++ == 0 ? way : claimed + way;
+}
 
 /// Signal down, vigor up (vigor.cpp): fills flow of the living buds, finds v_max of the enabled ones and the branches
 /// that fail.
 void share_vigor(Tree& tree);
 
-/// Fate, deflection and extension (shoots.cpp). Returns true when something grew.
+/// Fate, deflection and extension (shoots.cpp): who grows; buds that waited too long die. Returns true when some do.
 bool choose_growing(Tree& tree);
 void deflect(Tree& tree);
 /// Returns true when an internode passed the final height.
 bool extend(Tree& tree);
 
-/// Takes off branches whose vigor per internode is too small (shedding.cpp), and buds that are dead.
+/// Takes off branches whose vigor per internode is too small, and their buds (shedding.cpp).
 void shed(Tree& tree);
-void bury_dead_buds(Tree& tree);
 
 }  // namespace bosquet::growth

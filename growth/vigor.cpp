@@ -17,20 +17,21 @@
 namespace bosquet::growth {
 namespace {
 
-constexpr int kLightSteps = 512;  ///< L^kappa is read from a table by linear interpolation
+constexpr int kLightSteps = 512;         ///< L^kappa is read from a table by linear interpolation
+constexpr std::size_t kMostTables = 64;  ///< kept, so that trees of one species and phase share theirs
 
-/// Tables of L^kappa for the distinct kappas in force; returns for each order where its table begins.
-std::array<int, kOrders> light_tables(Tree& tree) {
-  std::array<int, kOrders> begin{};
+}  // namespace
+
+void tabulate_light_response(Tree& tree) {
   std::vector<float>& table = tree.light_response;
-  table.clear();
-  for (int order = 0; order < kOrders; ++order) {
-    const float kappa = tree.habits[static_cast<std::size_t>(order)].kappa;
-    if (order > 0 && kappa == tree.habits[static_cast<std::size_t>(order - 1)].kappa) {
-      begin[static_cast<std::size_t>(order)] = begin[static_cast<std::size_t>(order - 1)];
-      continue;
-    }
-    begin[static_cast<std::size_t>(order)] = static_cast<int>(table.size());
+  table.reserve(kMostTables * (kLightSteps + 2)), tree.light_kappas.reserve(kMostTables);
+  if (tree.light_kappas.size() + kOrders > kMostTables) table.clear(), tree.light_kappas.clear();
+  for (std::size_t order = 0; order < kOrders; ++order) {
+    const float kappa = tree.habits[order].kappa;
+    const auto known = std::find(tree.light_kappas.begin(), tree.light_kappas.end(), kappa);
+    tree.light_table[order] = static_cast<int>(known - tree.light_kappas.begin()) * (kLightSteps + 2);
+    if (known != tree.light_kappas.end()) continue;
+    tree.light_kappas.push_back(kappa);
     for (int i = 0; i <= kLightSteps; ++i) {
       table.push_back(kappa == 0.0f   ? 1.0f
                       : kappa == 1.0f ? static_cast<float>(i) / kLightSteps
@@ -38,22 +39,22 @@ std::array<int, kOrders> light_tables(Tree& tree) {
     }
     table.push_back(1.0f);
   }
-  return begin;
 }
-
-}  // namespace
 
 void sense_light(Tree& tree) {
   tree.work.shadow_cells += tree.shadow.settle();
-  const std::array<int, kOrders> tables = light_tables(tree);
   Buds& buds = tree.buds;
+  Internodes& in = tree.internodes;
   for (const std::int32_t bud : tree.living) {
-    const auto b = static_cast<std::size_t>(bud);
-    const float light = std::max(kLeastLight, buds.sky[b] * tree.shadow.exposure(buds.at[b]));
+    Bud& b = buds[static_cast<std::size_t>(bud)];
+    const float light = std::max(kLeastLight, b.sky * tree.shadow.exposure(b.at));
     const float step = light * kLightSteps;
     const int i = static_cast<int>(step);
-    const float* at = tree.light_response.data() + tables[std::min<std::size_t>(buds.order[b], kOrders - 1)] + i;
-    buds.signal[b] = buds.factor[b] * (at[0] + (at[1] - at[0]) * (step - static_cast<float>(i)));
+    const float* at = tree.light_response.data() + tree.light_table[std::min<std::size_t>(b.order, kOrders - 1)] + i;
+    b.signal = b.factor * (at[0] + (at[1] - at[0]) * (step - static_cast<float>(i)));
+    if (b.node < 0) continue;  // a stem's first bud: nothing stands below it
+    Internode& node = in[static_cast<std::size_t>(b.node)];
+    (b.state == BudState::terminal ? node.main_signal : node.lateral_signal) += b.signal;
   }
   tree.work.bud_visits += tree.living.size();
 }
@@ -61,68 +62,52 @@ void sense_light(Tree& tree) {
 void share_vigor(Tree& tree) {
   Internodes& in = tree.internodes;
   Buds& buds = tree.buds;
-  const Skeleton& wood = tree.wood;
+  Skeleton& wood = tree.wood;
   for (; tree.listed < wood.size(); ++tree.listed) {
     if (wood.alive(tree.listed)) tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
   }
-  tree.counts.resize(wood.size());
-  for (const std::int32_t node : tree.standing) {
-    const auto i = static_cast<std::size_t>(node);
-    in.main_signal[i] = in.lateral_signal[i] = 0.0f;
-    tree.counts[i] = 1;
-  }
 
-  // Down: buds report to their node, every node to the one below.
-  for (const std::int32_t bud : tree.living) {
-    const auto b = static_cast<std::size_t>(bud);
-    if (buds.node[b] < 0) continue;  // a stem's first bud: nothing stands below it
-    const auto node = static_cast<std::size_t>(buds.node[b]);
-    (buds.state[b] == BudState::terminal ? in.main_signal : in.lateral_signal)[node] += buds.signal[b];
-  }
+  // Down: what buds told their node, every node tells the one below.
   for (std::size_t s = tree.standing.size(); s-- > 0;) {
-    const auto i = static_cast<std::size_t>(tree.standing[s]);
-    if (wood.parent[i] < 0) continue;
-    const auto p = static_cast<std::size_t>(wood.parent[i]);
-    tree.counts[p] += tree.counts[i];
-    const float q = in.main_signal[i] + in.lateral_signal[i];
-    if (q > 0.0f) (in.next[p] == static_cast<std::int32_t>(i) ? in.main_signal : in.lateral_signal)[p] += q;
+    const Internode& i = in[static_cast<std::size_t>(tree.standing[s])];
+    if (i.parent < 0) continue;
+    Internode& p = in[static_cast<std::size_t>(i.parent)];
+    p.count += i.count;
+    (p.next == tree.standing[s] ? p.main_signal : p.lateral_signal) += i.main_signal + i.lateral_signal;
   }
 
-  // Up: v at the root is Q at the root, so stems share it as they reported.
+  // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
   tree.failing.clear();
   for (const std::int32_t node : tree.standing) {
-    const auto i = static_cast<std::size_t>(node);
-    const float q_m = in.main_signal[i], q_l = in.lateral_signal[i];
-    const Habit& habit = tree.habit(wood.order[i]);
-    float v = q_m + q_l;
-    if (wood.parent[i] >= 0) {
-      const auto p = static_cast<std::size_t>(wood.parent[i]);
-      if (in.next[p] == node) {
-        v = in.main_vigor[p];
-      } else {
-        v *= in.lateral_rate[p];
-        if (v < habit.shedding * static_cast<float>(tree.counts[i])) tree.failing.push_back(node);
-      }
+    Internode& i = in[static_cast<std::size_t>(node)];
+    const Habit& habit = tree.habit(i.order);
+    const float main = habit.lambda * i.main_signal, lateral = (1.0f - habit.lambda) * i.lateral_signal;
+    const float q = i.main_signal + i.lateral_signal, sum = main + lateral;
+    const float part = sum > 0.0f ? 1.0f / sum : 0.0f;
+    float v = q;
+    if (i.parent >= 0) {
+      const Internode& p = in[static_cast<std::size_t>(i.parent)];
+      const bool is_main = p.next == node;
+      v = is_main ? p.main_vigor : q * p.lateral_rate;
+      if (!is_main && v < habit.shedding * static_cast<float>(i.count)) tree.failing.push_back(node);
     }
-    if (q_m + q_l <= 0.0f) {
-      in.main_vigor[i] = in.lateral_rate[i] = 0.0f;
-      continue;
-    }
-    const float main = habit.lambda * q_m, lateral = (1.0f - habit.lambda) * q_l;
-    in.main_vigor[i] = v * (main / (main + lateral));
-    in.lateral_rate[i] = q_l > 0.0f ? (v - in.main_vigor[i]) / q_l : 0.0f;
+    wood.vigor[static_cast<std::size_t>(node)] = v;
+    i.main_vigor = v * (main * part);
+    i.lateral_rate = v * ((1.0f - habit.lambda) * part);
+    i.main_signal = i.lateral_signal = 0.0f;
+    i.count = 1;
   }
 
   float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {
-    const auto b = static_cast<std::size_t>(bud);
-    float v = buds.signal[b];
-    if (buds.node[b] >= 0) {
-      const auto node = static_cast<std::size_t>(buds.node[b]);
-      v = buds.state[b] == BudState::terminal ? in.main_vigor[node] : in.lateral_rate[node] * buds.signal[b];
+    Bud& b = buds[static_cast<std::size_t>(bud)];
+    float v = b.signal;
+    if (b.node >= 0) {
+      const Internode& node = in[static_cast<std::size_t>(b.node)];
+      v = b.state == BudState::terminal ? node.main_vigor : node.lateral_rate * b.signal;
     }
-    buds.flow[b] = v;
-    if (buds.claims[b] > 0) greatest = std::max(greatest, v);
+    b.flow = v;
+    if (b.claims > 0) greatest = std::max(greatest, v);
   }
   tree.greatest_vigor = greatest;
 }

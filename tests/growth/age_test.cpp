@@ -49,7 +49,7 @@ TEST(Age, TheYoungerTreeIsTheTreeThatHadStoppedThen) {
     GrowthInput input = sample_input(p, 3);
     input.detail = detail;
     const Skeleton whole = grow(input);
-    for (const int seasons : {10, 12, 14}) {
+    for (const int seasons : {10, 12, 13}) {
       ASSERT_LT(seasons, whole.seasons);
       Parameters stopped = p;
       stopped.max_seasons = seasons;

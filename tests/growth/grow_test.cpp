@@ -274,7 +274,7 @@ TEST(Grow, APlanarTreeStaysInItsPlaneHoweverItsBudsStand) {
     }
     EXPECT_LT(left, -1.0f);
     EXPECT_GT(right, 1.0f);
-    for (const Vec3& direction : tree.buds.direction) EXPECT_EQ(direction.z, 0.0f);
+    for (const Bud& bud : tree.buds.each) EXPECT_EQ(bud.direction.z, 0.0f);
   }
 }
 
@@ -293,7 +293,7 @@ std::vector<std::vector<Vec3>> trunk_nodes(const Parameters& p) {
       if (tree.wood.order[carrier] != 0) continue;
       const Vec3 h = tree.internodes.heading[carrier];
       if (static_cast<std::size_t>(tree.internodes.first_bud[carrier]) == b) nodes.emplace_back();
-      nodes.back().push_back(glm::normalize(tree.buds.direction[b] - glm::dot(tree.buds.direction[b], h) * h));
+      nodes.back().push_back(glm::normalize(tree.buds[b].direction - glm::dot(tree.buds[b].direction, h) * h));
     }
     seen = tree.buds.size();
   }
@@ -369,7 +369,8 @@ TEST(Grow, SeveralStemsRiseFromOneBaseLeaningApartEvenly) {
   const GrowthInput input = sample_input(p, 2, 5.0f);
   Tree tree;
   plant(tree, input);
-  const std::vector<Vec3> ways = tree.buds.direction;
+  std::vector<Vec3> ways;
+  for (const Bud& bud : tree.buds.each) ways.push_back(bud.direction);
   ASSERT_EQ(ways.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     const float lean = degrees(std::acos(ways[i].y));
@@ -435,16 +436,15 @@ TEST(Grow, VigorLeavingAForkEqualsVigorArriving) {
   sense_light(tree);
   compete_for_space(tree);
   share_vigor(tree);
-  const Internodes& in = tree.internodes;
   std::vector<double> leaving(tree.wood.size(), 0.0);  // through the ways that stand on a node
   for (const std::int32_t bud : tree.living) {
     const auto b = static_cast<std::size_t>(bud);
-    if (tree.buds.node[b] >= 0) leaving[static_cast<std::size_t>(tree.buds.node[b])] += tree.buds.flow[b];
+    if (tree.buds[b].node >= 0) leaving[static_cast<std::size_t>(tree.buds[b].node)] += tree.buds[b].flow;
   }
   int forks = 0;
   for (std::size_t i = tree.wood.size(); i-- > 0;) {
-    const double arriving = in.main_vigor[i] + in.lateral_rate[i] * in.lateral_signal[i];
-    if (in.main_signal[i] > 0.0f && in.lateral_signal[i] > 0.0f) ++forks;
+    const double arriving = tree.wood.vigor[i];
+    if (leaving[i] > 1.01 * tree.internodes[i].main_vigor && tree.internodes[i].main_vigor > 0.0f) ++forks;
     EXPECT_NEAR(leaving[i], arriving, 1e-4 * arriving) << "internode " << i;
     if (tree.wood.parent[i] >= 0) leaving[static_cast<std::size_t>(tree.wood.parent[i])] += arriving;
   }

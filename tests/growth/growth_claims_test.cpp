@@ -11,6 +11,7 @@
 
 #include "core/scalar.h"
 #include "growth/age.h"
+#include "growth/directions.h"
 #include "growth/grow.h"
 #include "growth/measure.h"
 #include "growth/tree.h"
@@ -161,7 +162,7 @@ double favoured_side(const Parameters& p, std::uint64_t seed, const F& f) {
       if (tree.buds.carrier[b] < 0) continue;
       const Vec3 h = tree.internodes.heading[static_cast<std::size_t>(tree.buds.carrier[b])];
       if (std::abs(h.y) > 0.70710678f) continue;
-      const Vec3 across = glm::normalize(tree.buds.direction[b] - glm::dot(tree.buds.direction[b], h) * h);
+      const Vec3 across = glm::normalize(tree.buds[b].direction - glm::dot(tree.buds[b].direction, h) * h);
       side.back() = f(glm::dot(across, most_vertical(h)));
     }
   }
