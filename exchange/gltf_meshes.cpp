@@ -29,11 +29,12 @@ Error broken(std::string what) { return cannot_finish(std::move(what)); }
 // Round half up of a coordinate in [0, 1].
 std::uint16_t normalized_short(float v) { return static_cast<std::uint16_t>(v * 65535.0f + 0.5f); }
 
-// Of a number in [-1, 1].
-// The lower byte is the same nearly everywhere, so it packs into nothing.
+// The same to 1/256: the lower byte is 0 nearly everywhere and packs into nothing.
 std::uint16_t coarse_short(float v) {
   return static_cast<std::uint16_t>(std::min(std::floor(v * 256.0f + 0.5f) * 256.0f, 65535.0f));
 }
+
+// Of a number in [-1, 1].
 std::int8_t signed_byte(float v) {
   return static_cast<std::int8_t>(std::clamp(std::floor(v * 127.0f + 0.5f), -127.0f, 127.0f));
 }

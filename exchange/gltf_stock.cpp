@@ -123,6 +123,7 @@ Result<GltfStock> take_stock(const scene::Model& model, const GltfOptions& optio
       MeshFacts& facts = stock.meshes.emplace_back();
       facts.mesh = mesh;
       facts.quantized = quantized;
+      facts.coarse_uv = options.compression == Compression::meshopt;
       stock.owners.push_back(node.name);
     }
     return it->second;
@@ -134,8 +135,7 @@ Result<GltfStock> take_stock(const scene::Model& model, const GltfOptions& optio
     const auto uses = [&](std::size_t m) {
       stock.meshes[m].textured |= textured(material, options);
       stock.meshes[m].bumpy |= uses_normal_map(material, options.leaf_normal_maps);
-      stock.meshes[m].coarse_uv =
-          options.compression == Compression::meshopt && material.surface == scene::Surface::leaf;
+      stock.meshes[m].coarse_uv &= material.surface == scene::Surface::leaf;
     };
     if (const auto instanced = stock.cards.find(part.mesh.get()); instanced != stock.cards.end()) {
       if (instanced->second.empty()) {

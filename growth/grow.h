@@ -1,8 +1,8 @@
 // Grow: one tree from seed to its final height.
 //
 // Source    Longay 2014, chapter 4 and 6.6, after Runions et al. 2007 (space) and Palubicki et al. 2009 (light, vigor)
-// Model     a season: light of each bud (light.h), space by markers (space.h), signal down and vigor up (vigor.h), fate
-//           n = floor(v / v_max * n_max), deflection, extension metamer by metamer (shoots.h), shedding; seasons repeat
+// Model     a season: light of each bud (shadow.h), space by markers (markers.h), signal down and vigor up (vigor.cpp), fate
+//           n = floor(v / v_max * n_max), deflection, extension metamer by metamer (shoots.cpp), shedding; seasons repeat
 //           until an internode passes h_max, nothing grew for three seasons, or max_seasons
 // Frame     tree frame: origin at the tree's base, x east, y up, z south; metres
 // Decision  a metamer's lateral buds stand at its base; the first metamer of an axis carries none (its base is the

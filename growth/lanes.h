@@ -1,6 +1,7 @@
 // Lanes: four floats at once, for the loops in which growth spends its time.
 //
-// Holds     the same bits as four single computations: only + - * and comparisons, in the order written, nothing fused
+// Holds     the same bits as four single computations: only + - * / sqrt and comparisons, in the order written,
+//           nothing fused
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 // Source    Runions et al. 2007 (kill distance); Longay 2014, 4.2.1: a sphere of radius r around every node
 // Decision  every node of living wood occupies, whatever its bud does; shedding frees it
-// Decision  space is told in cells of r / 3: a cell is occupied when its middle is nearer than r to a node, the node set
+// Decision  space is told in cells of r / 3, never smaller than `least_cell_m`: a cell is occupied when its middle is nearer than r to a node, the node set
 //           in the middle of its eighth of a cell. Cells stand at the tree's base whatever the room, so the room
 //           changes no tree
 // Layout    one byte a cell: how many nodes occupy it, or kClosed: below ground, or no voxel of the crown region

@@ -21,6 +21,10 @@ Box3 expected_room(const GrowthInput& input, const crowns::CrownRegion* r, float
   if (r) {
     room.add(r->low);
     room.add(r->low + Vec3(r->cells) * Vec3(r->voxel_m, r->layer_m, r->voxel_m));
+    // A tree alone on its site may be given all of it; the grid grows where wood does go that far.
+    const float half = 2.0f * input.max_height_m;
+    room.low = glm::max(room.low, Vec3{-half, room.low.y, -half});
+    room.high = glm::min(room.high, Vec3{half, room.high.y, half});
   } else {
     const float half = 0.35f * input.max_height_m;
     room.add({-half, 0.0f, -half});

@@ -196,7 +196,7 @@ void tabulate_light_response(Tree& tree);
 /// Light at every living bud and the signal Q = b * L^kappa that it tells its node (Longay 2014, eq. 4.7).
 void sense_light(Tree& tree);
 
-/// Markers dropped by the living buds, and who got them (space.cpp). `rest` is only those still growing.
+/// Markers dropped by the living buds, and who got them (space.cpp).
 void compete_for_space(Tree& tree);
 void compete_for_space_again(Tree& tree);
 /// The same with painted markers (painted.cpp).

@@ -177,7 +177,6 @@ vec3 ground_texture(sampler2D map, vec2 uv) {
   float tiles_per_pixel = max(length(dFdx(uv)), length(dFdy(uv)));
   return mix(seen, textureLod(map, uv, 16.0).rgb, 0.9 * smoothstep(0.02, 0.15, tiles_per_pixel));
 }
-// Ground is never even: drier and lusher patches over many metres.
 // Tufts stand above what is between them; without their own shapes, by light and shade, gone with distance.
 vec3 tufts(vec2 p, float distance_m) {
   float near = exp(-distance_m / 22.0);
@@ -188,6 +187,7 @@ vec3 tufts(vec2 p, float distance_m) {
   shade *= mix(vec3(1.0), vec3(1.16, 1.04, 0.84), smoothstep(0.55, 0.95, dry));
   return mix(vec3(1.0), shade, near);
 }
+// Ground is never even: drier and lusher patches over many metres.
 vec3 ground_patches(vec2 p) {
   float wide = layered_noise(p / 38.0) - 0.5, near = layered_noise(p / 7.0 + 31.0) - 0.5;
   return (1.0 + 0.28 * wide + 0.20 * near) *
