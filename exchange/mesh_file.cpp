@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/letters.h"
 #include "exchange/gltf_info.h"
 
 namespace bosquet::exchange {
@@ -118,8 +119,9 @@ class GltfReader {
                              void*) { return true; },
                           nullptr);
     std::string error, warning;
-    const bool good = path_.extension() == ".glb" ? reader.LoadBinaryFromFile(&model_, &error, &warning, name_)
-                                                  : reader.LoadASCIIFromFile(&model_, &error, &warning, name_);
+    const bool good = folded_letters(path_.extension().string()) == ".glb"
+                          ? reader.LoadBinaryFromFile(&model_, &error, &warning, name_)
+                          : reader.LoadASCIIFromFile(&model_, &error, &warning, name_);
     if (!good) {
       while (!error.empty() && error.back() == '\n') error.pop_back();
       return Error{fmt::format("cannot read {}: {}", name_, error.empty() ? "it is damaged" : error)};
@@ -251,8 +253,9 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& path) {
     return Error{fmt::format("cannot read {}: it is no regular file", path.string())};
   if (std::filesystem::file_size(path, failed) > kMostBytes)
     return Error{fmt::format("{} is larger than {} GiB", path.string(), kMostBytes >> 30)};
-  if (path.extension() == ".obj") return ObjReader(path).read();
-  if (path.extension() == ".glb" || path.extension() == ".gltf") return GltfReader(path).read();
+  const std::string ending = folded_letters(path.extension().string());
+  if (ending == ".obj") return ObjReader(path).read();
+  if (ending == ".glb" || ending == ".gltf") return GltfReader(path).read();
   return Error{
       fmt::format("{}: unknown kind of mesh '{}'; known: .glb .gltf .obj", path.string(), path.extension().string())};
 }

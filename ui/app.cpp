@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/letters.h"
 #include "ui/panels/panels.h"
 #include "ui/pick.h"
 
@@ -108,7 +109,7 @@ void App::run_guarded(std::function<void()> then, Ask why) {
 }
 
 void App::open_file(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
+  const std::string ending = folded_letters(file.extension().string());
   if (ending != ".bosquet" && ending != ".toml") {
     say(fmt::format("{} is neither a project (.bosquet) nor a recipe (.toml)", file.filename().string()));
     return;
@@ -388,6 +389,7 @@ void App::frame(const FrameInput& in) {
   io.DisplaySize = {static_cast<float>(in.size.x), static_cast<float>(in.size.y)};
   for (const std::filesystem::path& file : in.dropped) open_file(file);
   if (in.close) run_guarded([this] { ended_ = true; }, Ask::close);
+  thumbnails_->keep(session_->document()->species);
   // What happened since the last frame may be more than one pass of ImGui can see; only the last pass is drawn.
   // One more shows what a click led to.
   pass(in, in.events, passed_s);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/letters.h"
+
 namespace bosquet::ui {
 namespace {
 
@@ -59,7 +61,7 @@ void FileChooser::list() {
     const bool folder = it->is_directory(ignored);
     if (name.starts_with('.')) continue;
     if (!folder && !endings_.empty() &&
-        std::find(endings_.begin(), endings_.end(), it->path().extension().string()) == endings_.end())
+        std::find(endings_.begin(), endings_.end(), folded_letters(it->path().extension().string())) == endings_.end())
       continue;
     entries_.push_back({name, folder, folder ? 0 : it->file_size(ignored)});
   }

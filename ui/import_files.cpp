@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "core/letters.h"
 #include "exchange/elevation.h"
 #include "exchange/footprints.h"
+#include "exchange/ground_recipe.h"
 #include "exchange/mesh_file.h"
 #include "exchange/tree_import.h"
 #include "scene/site_edits.h"
@@ -12,23 +17,41 @@ namespace bosquet::ui {
 namespace {
 
 constexpr float kUsualHeight_m = 8.0f;
+constexpr std::size_t kMostNotes = 3;  ///< that are said at once
+
+// Trees off good ground since the edit; those that were before are not its doing.
+std::vector<std::int32_t> newly_displaced(const scene::Document& before, const scene::Document& after) {
+  const std::vector<std::int32_t> were = scene::displaced_trees(before), are = scene::displaced_trees(after);
+  std::vector<std::int32_t> since;
+  std::set_difference(are.begin(), are.end(), were.begin(), were.end(), std::back_inserter(since));
+  return since;
+}
+
+// Whether a raster says nothing of where it lies. What it holds where an unplaced one would lie under the site is read.
+bool lies_nowhere(const std::filesystem::path& file, DVec2 size_m) {
+  const auto there = exchange::read_elevation(file, {.window = exchange::MapRectangle{DVec2(0.0), size_m}});
+  return there && !there->georeferenced;
+}
 
 Result<scene::Edited> import_ground(const scene::Document& document, const std::filesystem::path& file) {
-  auto raster = exchange::read_elevation(file);
-  if (!raster) return raster.error();
-  const terrain::Lattice& lattice = document.terrain->height.lattice();
-  // A raster that says nothing of where it lies begins at the site's corner.
-  const DVec2 corner = raster->georeferenced ? document.place.south_west : raster->low_corner();
-  auto heights = exchange::heights_at_corners(*raster, corner, lattice.cells.x, lattice.cells.y,
-                                              static_cast<double>(lattice.cell_m), DVec2(lattice.size_m));
-  if (!heights) return heights.error();
-  auto field = terrain::Heightfield::from_samples(lattice, *heights);
-  if (!field) return field.error();
+  const Vec2 size = document.terrain->size_m();
+  exchange::GroundRecipe recipe;
+  recipe.dem = file;
+  recipe.site_corner_given = recipe.sun_place_given = true;
+  // An unplaced raster begins at the site's corner, wherever that is.
+  const bool nowhere = document.place.south_west != DVec2(0.0) && lies_nowhere(file, DVec2(size));
+  recipe.dem_corner_given = nowhere;
+  auto made = exchange::make_ground(recipe, size, document.place, document.seed);
+  if (!made) return made.error();
+  if (made->terrain.height.lattice() != document.terrain->height.lattice())
+    return Error{fmt::format("{}: heights come in cells of {:g} m here, and the site has cells of {:g} m",
+                             file.string(), made->terrain.height.lattice().cell_m,
+                             document.terrain->height.lattice().cell_m)};
   terrain::Terrain ground = *document.terrain;
-  ground.height = std::move(*field);
+  ground.height = std::move(made->terrain.height);
   scene::Edited edit = scene::set_ground(document, std::move(ground), "Import ground");
-  if (raster->filled > 0)
-    edit.notes.push_back(fmt::format("{} cells without data were filled from their surroundings", raster->filled));
+  if (!nowhere) edit.document.place = made->place;
+  edit.notes.insert(edit.notes.begin(), made->warnings.begin(), made->warnings.end());
   return edit;
 }
 
@@ -39,7 +62,7 @@ Result<scene::Edited> import_trees(const scene::Document& document, const std::f
   edit.document = std::move(imported->document);
   edit.name = "Import " + scene::trees_in_words(imported->trees);
   edit.notes = std::move(imported->warnings);
-  edit.displaced = scene::displaced_trees(edit.document);
+  edit.displaced = newly_displaced(document, edit.document);
   return edit;
 }
 
@@ -54,7 +77,7 @@ Result<scene::Edited> import_buildings(const scene::Document& document, const st
     ++count;
     return {};
   };
-  const std::string ending = file.extension().string();
+  const std::string ending = folded_letters(file.extension().string());
   if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
     auto mesh = exchange::read_mesh(file);
     if (!mesh) return mesh.error();
@@ -67,6 +90,7 @@ Result<scene::Edited> import_buildings(const scene::Document& document, const st
   } else {
     auto outlines = exchange::read_footprints(file, document.place, DVec2(document.terrain->size_m()));
     if (!outlines) return outlines.error();
+    if (outlines->place) edit.document.place = *outlines->place;
     edit.notes = std::move(outlines->notes);
     for (exchange::Footprint& f : outlines->all)
       if (auto done = add(scene::extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(kUsualHeight_m),
@@ -76,7 +100,7 @@ Result<scene::Edited> import_buildings(const scene::Document& document, const st
   }
   if (count == 0) return Error{fmt::format("{}: holds no outline on this site", file.string())};
   edit.name = count == 1 ? "Import a building" : fmt::format("Import {} buildings", count);
-  edit.displaced = scene::displaced_trees(edit.document);
+  edit.displaced = newly_displaced(document, edit.document);
   return edit;
 }
 
@@ -104,6 +128,18 @@ Result<scene::Edited> import_file(const scene::Document& document, ImportKind ki
       break;
   }
   return import_buildings(document, file);
+}
+
+std::string import_words(const scene::Edited& edit, const std::filesystem::path& file) {
+  std::string words = edit.name + " from " + file.filename().string();
+  if (!edit.displaced.empty())
+    words += fmt::format(
+        "\n{} now on a path, in water or under a building",
+        edit.displaced.size() == 1 ? "1 tree stands" : fmt::format("{} trees stand", edit.displaced.size()));
+  const std::size_t said = std::min(kMostNotes, edit.notes.size());
+  for (std::size_t i = 0; i < said; ++i) words += "\n" + edit.notes[i];
+  if (said < edit.notes.size()) words += fmt::format("\nand {} more", edit.notes.size() - said);
+  return words;
 }
 
 }  // namespace bosquet::ui

@@ -80,8 +80,9 @@ Result<void> run_window(const RunOptions& options) {
     const Stopwatch watch;
     const double cpu_before = thread_seconds();
     if (player) {
+      if (player->done()) break;
       events = player->next(**app, now);
-      if (player->done() || !player->problem().empty()) break;
+      if (!player->problem().empty()) break;
     }
     if (window->size().x < 1 || window->size().y < 1) continue;  // an icon
     const std::vector<std::filesystem::path> dropped = window->dropped();
@@ -96,7 +97,8 @@ Result<void> run_window(const RunOptions& options) {
     (*app)->frame(input);
     cpu.push_back(thread_seconds() - cpu_before);
     window->show_frame();
-    if (state) state->write(**app);
+    if (state)
+      if (auto written = state->write(**app); !written) return written;
     wall.push_back(watch.seconds());
     lines.push_back(player ? player->line() : 0);
     if (!(*app)->session().pipeline().idle()) {
@@ -127,7 +129,8 @@ Result<void> run_window(const RunOptions& options) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cpu[a] > cpu[b]; });
     for (std::size_t i = 0; i < std::min<std::size_t>(kSlowest, order.size()); ++i)
-      json["slowest"].push_back({{"frame", order[i]}, {"script_line", lines[order[i]]}, {"cpu_ms", 1e3 * cpu[order[i]]}});
+      json["slowest"].push_back(
+          {{"frame", order[i]}, {"script_line", lines[order[i]]}, {"cpu_ms", 1e3 * cpu[order[i]]}});
     json["trees"] = (*app)->session().document()->trees->size();
     std::ofstream out(options.report);
     out << json.dump(2) << "\n";

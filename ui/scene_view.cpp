@@ -259,13 +259,14 @@ void SceneView::follow_trees(const scene::Document& document) {
   }
 }
 
-void SceneView::follow_overhead() {
+// The ground needs what lies over it to be seen as it is, at once; then as the trees stand at last, not after each of them.
+void SceneView::follow_overhead(bool growing) {
   if (ready(overhead_)) {
     static_cast<void>(renderer_->set_overhead(overhead_.get()));
     drawn_full_ = false;
     drawn_for_ = 0;
   }
-  if (overhead_.valid() || overhead_for_ == changed_) return;
+  if (overhead_.valid() || overhead_for_ == changed_ || (growing && overhead_for_ != 0)) return;
   overhead_for_ = changed_;
   scene::Model model;
   model.materials = site_materials_;
@@ -346,8 +347,7 @@ void SceneView::update(Session& session) {
     }
   } while (watch.seconds() < kUpload_s);
   follow_view_model(session);
-  // The ground needs what lies over it to be seen as it is, at once; then as the trees stand at last.
-  if (session.pipeline().idle() || overhead_for_ == 0 || overhead_.valid()) follow_overhead();
+  follow_overhead(!session.pipeline().idle());
 }
 
 bool SceneView::settled() const {

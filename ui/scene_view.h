@@ -64,7 +64,7 @@ class SceneView {
   void show_grown(const scene::Document& document, const scene::FinishedTree& tree);
   void show_shape(const scene::Document& document, const scene::Tree& tree);
   void follow_view_model(const Session& session);
-  void follow_overhead();
+  void follow_overhead(bool growing);
   std::optional<std::size_t> materials_of(const scene::Document& document, std::size_t species);
 
   std::optional<render::Renderer> renderer_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/letters.h"
 #include "exchange/recipe.h"
 
 namespace bosquet::ui {
@@ -85,7 +86,7 @@ void Session::go_to(std::size_t step) {
 
 Result<OpenedDocument> read_document(const std::filesystem::path& file) {
   OpenedDocument opened;
-  const std::string ending = file.extension().string();
+  const std::string ending = folded_letters(file.extension().string());
   if (ending == ".toml") {
     auto recipe = exchange::read_recipe(file);
     if (!recipe) return recipe.error();
@@ -106,7 +107,7 @@ Result<OpenedDocument> read_document(const std::filesystem::path& file) {
 }
 
 Result<void> Session::open(const std::filesystem::path& file) {
-  if (file.extension() == ".bosquet") {
+  if (folded_letters(file.extension().string()) == ".bosquet") {
     auto project = scene::ProjectFile::open(file);
     if (!project) return project.error();
     notes = scene::lines(project->state());

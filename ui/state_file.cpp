@@ -53,17 +53,21 @@ std::string state_text(App& app) {
           found != app.view().grown().end() && found->second.grown.skeleton)
         skeletons[std::to_string(tree.id)] = hex_digits(growth::digest(*found->second.grown.skeleton));
   }
-  return json.dump(1);
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void StateFile::write(App& app) {
+Result<void> StateFile::write(App& app) {
   std::string text = state_text(app);
-  if (text == written_) return;
+  if (text == written_) return {};
   const std::filesystem::path beside = file_.string() + ".new";
-  std::ofstream(beside) << text;
-  std::error_code ignored;
-  std::filesystem::rename(beside, file_, ignored);
+  std::ofstream out(beside);
+  out << text;
+  out.close();
+  std::error_code failed;
+  if (out) std::filesystem::rename(beside, file_, failed);
+  if (!out || failed) return cannot_finish(file_.string() + ": cannot be written");
   written_ = std::move(text);
+  return {};
 }
 
 }  // namespace bosquet::ui

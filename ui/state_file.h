@@ -6,11 +6,14 @@
 //           water_level_m, view [x, y, width, height] of the scene; widgets {name: [x, y, width, height]};
 //           places [{id, species, east, north, x, y}]: trees whose foot is seen, at most kMostPlaces; skeletons
 //           {id: 16 hex digits}, when settled. x and y in pixels of the window
+// Errors    of kind `cannot_finish` for a file that cannot be written; bytes that are no UTF-8 stand as U+FFFD
 // Cost      a millisecond or so a frame; only for those who ask for it
 #pragma once
 
 #include <filesystem>
 #include <string>
+
+#include "core/result.h"
 
 namespace bosquet::ui {
 
@@ -25,7 +28,7 @@ std::string state_text(App& app);
 class StateFile {
  public:
   explicit StateFile(std::filesystem::path file) : file_(std::move(file)) {}
-  void write(App& app);
+  Result<void> write(App& app);
 
  private:
   std::filesystem::path file_;

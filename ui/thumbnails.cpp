@@ -1,5 +1,6 @@
 #include "ui/thumbnails.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -26,7 +27,7 @@ constexpr std::size_t kTriangles = 80'000;
 constexpr std::uint64_t kTreeKey = 1;
 constexpr float kMargin = 1.04f;
 // Raised whenever the same species is drawn differently.
-constexpr std::uint64_t kPictureVersion = 1;
+constexpr std::uint64_t kPictureVersion = 2;
 
 exchange::TextureCache cache_of_user() {
   const std::filesystem::path textures = exchange::TextureCache::of_user().folder();
@@ -100,7 +101,7 @@ struct Thumbnails::State {
   mutable std::mutex mutex;
   std::condition_variable wake;
   std::deque<std::shared_ptr<const scene::Species>> wanted;
-  std::deque<std::pair<const scene::Species*, Image>> done;
+  std::deque<std::pair<std::shared_ptr<const scene::Species>, Image>> done;
   bool working = false, ending = false;
   Progress progress;
   std::thread thread;
@@ -140,7 +141,7 @@ struct Thumbnails::State {
       }
       if (picture) {
         const std::scoped_lock lock(mutex);
-        done.emplace_back(species.get(), std::move(*picture));
+        done.emplace_back(std::move(species), std::move(*picture));
       }
     }
   }
@@ -172,15 +173,30 @@ unsigned Thumbnails::of(const std::shared_ptr<const scene::Species>& species) {
   return found->second.texture;
 }
 
+void Thumbnails::keep(const std::vector<std::shared_ptr<const scene::Species>>& species) {
+  const auto unwanted = [&](const std::shared_ptr<const scene::Species>& one) {
+    return std::find(species.begin(), species.end(), one) == species.end();
+  };
+  const std::size_t dropped = std::erase_if(entries_, [&](const auto& item) {
+    if (!unwanted(item.second.species)) return false;
+    if (item.second.texture != 0) render::delete_texture(item.second.texture);
+    return true;
+  });
+  if (dropped == 0) return;
+  const std::scoped_lock lock(state_->mutex);
+  std::erase_if(state_->wanted, unwanted);
+}
+
 void Thumbnails::collect() {
-  std::optional<std::pair<const scene::Species*, Image>> one;
+  std::optional<std::pair<std::shared_ptr<const scene::Species>, Image>> one;
   {
     const std::scoped_lock lock(state_->mutex);
     if (state_->done.empty()) return;
     one = std::move(state_->done.front());
     state_->done.pop_front();
   }
-  if (const auto found = entries_.find(one->first); found != entries_.end())
+  // One that was dropped and asked for again may come twice.
+  if (const auto found = entries_.find(one->first.get()); found != entries_.end() && found->second.texture == 0)
     found->second.texture = render::make_texture(one->second);
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "core/image.h"
 #include "core/progress.h"
@@ -29,6 +30,8 @@ class Thumbnails {
 
   /// The texture of a species' picture, first row at the top; 0 while there is none.
   unsigned of(const std::shared_ptr<const scene::Species>& species);
+  /// Forgets all but these species, with their textures: at the beginning of a frame, while nothing draws them.
+  void keep(const std::vector<std::shared_ptr<const scene::Species>>& species);
   /// Takes what was finished: at most one picture, so that a frame stays short.
   void collect();
   /// Nothing is drawn or waited for.

@@ -111,8 +111,8 @@ class Desktop : public ::testing::Test {
   }
 
   std::vector<std::string> environment() const {
-    return {"XDG_STATE_HOME=" + (folder_ / "state").string(), "LIBGL_ALWAYS_SOFTWARE=1", "DISPLAY=" + display_,
-            "WAYLAND_DISPLAY"};
+    return {"XDG_STATE_HOME=" + (folder_ / "state").string(), "XDG_CACHE_HOME=" + (folder_ / "cache").string(),
+            "LIBGL_ALWAYS_SOFTWARE=1", "DISPLAY=" + display_, "WAYLAND_DISPLAY"};
   }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;

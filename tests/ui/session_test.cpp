@@ -1,10 +1,12 @@
 #include "ui/session.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "exchange/image_file.h"
 #include "ui/import_files.h"
 
 namespace bosquet::ui {
@@ -72,7 +74,101 @@ TEST_F(Import, BuildingsComeFromOutlines) {
       "geometry": {"type": "Polygon", "coordinates": [[[10, 10], [20, 10], [20, 18], [10, 18], [10, 10]]]}}]})"));
   ASSERT_TRUE(edit) << edit.error().message;
   EXPECT_EQ(edit->name, "Import a building");
-  EXPECT_EQ(edit->document.obstacles.size(), site->obstacles.size() + 1);
+  ASSERT_EQ(edit->document.obstacles.size(), site->obstacles.size() + 1);
+  const scene::Obstacle& barn = edit->document.obstacles.back();
+  ASSERT_TRUE(barn.outline);
+  const Box2 box = barn.outline->bounds();
+  EXPECT_EQ(box.low, Vec2(10, 10));
+  EXPECT_EQ(box.high, Vec2(20, 18));
+  EXPECT_EQ(edit->document.place, site->place);
+}
+
+TEST_F(Import, TheFirstOutlinesWithAReferenceSystemGiveTheSiteItsPlace) {
+  const auto site = make_template("Meadow");
+  ASSERT_TRUE(site);
+  const auto houses = [&](const std::string& name, double east) {
+    return write(name, fmt::format(R"({{"type": "FeatureCollection",
+      "crs": {{"type": "name", "properties": {{"name": "urn:ogc:def:crs:EPSG::25832"}}}},
+      "features": [{{"type": "Feature", "properties": {{"height": 6}}, "geometry": {{"type": "Polygon", "coordinates":
+        [[[{0}, 5540010], [{1}, 5540010], [{1}, 5540018], [{0}, 5540018], [{0}, 5540010]]]}}}}]}})",
+                                   east, east + 10));
+  };
+  const auto first = import_file(*site, ImportKind::buildings, houses("first.geojson", 500010));
+  ASSERT_TRUE(first) << first.error().message;
+  const scene::Georeference& place = first->document.place;
+  EXPECT_NE(place.crs_wkt.find("25832"), std::string::npos) << place.crs_wkt;
+  // The second file lies beside the first as it does on the map.
+  const auto second = import_file(first->document, ImportKind::buildings, houses("second.geojson", 500025));
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(second->document.place, place);
+  const Box2 a = first->document.obstacles.back().outline->bounds();
+  const Box2 b = second->document.obstacles.back().outline->bounds();
+  EXPECT_NEAR(b.low.x - a.low.x, 15, 1e-3);
+  EXPECT_NEAR(b.low.y, a.low.y, 1e-3);
+}
+
+// A grid of 200 x 200 cells of 1 m that rises to the east, in UTM zone 32 where `placed`.
+class GroundImport : public Files {
+ protected:
+  std::filesystem::path grid(bool placed) const {
+    if (!placed) {
+      Image image(200, 200, 1);
+      for (int r = 0; r < 200; ++r)
+        for (int c = 0; c < 200; ++c) image.at(c, r)[0] = static_cast<std::uint8_t>(c);
+      EXPECT_TRUE(exchange::write_image(folder_ / "plain.png", image));
+      return folder_ / "plain.png";
+    }
+    std::string text = "ncols 200\nnrows 200\nxllcorner 500000\nyllcorner 5540000\ncellsize 1\n";
+    for (int r = 0; r < 200; ++r)
+      for (int c = 0; c < 200; ++c) text += std::to_string(c) + (c < 199 ? ' ' : '\n');
+    write("ground.prj",
+          "PROJCS[\"ETRS_1989_UTM_Zone_32N\",GEOGCS[\"GCS_ETRS_1989\",DATUM[\"D_ETRS_1989\",SPHEROID[\"GRS_1980\","
+          "6378137.0,298.257222101]],PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],PROJECTION["
+          "\"Transverse_Mercator\"],PARAMETER[\"False_Easting\",500000.0],PARAMETER[\"False_Northing\",0.0],PARAMETER["
+          "\"Central_Meridian\",9.0],PARAMETER[\"Scale_Factor\",0.9996],PARAMETER[\"Latitude_Of_Origin\",0.0],UNIT["
+          "\"Meter\",1.0]]");
+    return write("ground.asc", text);
+  }
+  static scene::Document site(const std::string& system) {
+    scene::Document document = *make_template("Meadow");
+    document.place.south_west = {500010, 5540020};
+    document.place.crs_wkt = system;
+    return document;
+  }
+};
+
+TEST_F(GroundImport, HeightsComeFromUnderTheSite) {
+  const scene::Document before = site("EPSG:25832");
+  const auto edit = import_file(before, ImportKind::ground, grid(true));
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->document.place.south_west, before.place.south_west);
+  EXPECT_NEAR(edit->document.terrain->ground(Vec2(20, 30)), 29.5f, 1e-3f);
+}
+
+TEST_F(GroundImport, HeightsOfAnotherPlaceAreRefused) {
+  // The same numbers in the next zone are 430 km away.
+  const auto edit = import_file(site("EPSG:25833"), ImportKind::ground, grid(true));
+  ASSERT_FALSE(edit);
+  EXPECT_NE(edit.error().message.find("ground.asc"), std::string::npos) << edit.error().message;
+}
+
+TEST_F(GroundImport, ARasterThatSaysNothingOfItsPlaceBeginsAtTheSitesCorner) {
+  const scene::Document before = site("EPSG:25832");
+  const auto edit = import_file(before, ImportKind::ground, grid(false));
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->document.place, before.place);
+  EXPECT_NEAR(edit->document.terrain->ground(Vec2(20, 30)), 19.5f, 1e-3f);
+}
+
+TEST(ImportWords, TellWhatCameWhatItDisplacedAndHowManyNotesThereAre) {
+  scene::Edited edit;
+  edit.name = "Import 2 trees";
+  EXPECT_EQ(import_words(edit, "a/trees.csv"), "Import 2 trees from trees.csv");
+  edit.displaced = {3, 4};
+  edit.notes = {"one", "two", "three", "four", "five"};
+  EXPECT_EQ(import_words(edit, "a/trees.csv"),
+            "Import 2 trees from trees.csv\n2 trees stand now on a path, in water or under a building\n"
+            "one\ntwo\nthree\nand 2 more");
 }
 
 TEST_F(Import, AFileThatIsNeitherIsNamed) {

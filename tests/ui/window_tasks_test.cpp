@@ -320,6 +320,22 @@ TEST_F(WindowTask, AStrokeOfAHundredThousandTreesAsksFirst) {
   EXPECT_EQ(state()["trees"], 0);
 }
 
+TEST_F(WindowTask, TheLastLineOfAScriptIsPlayedAndAnyNameOfAFileCanBeTold) {
+  const std::filesystem::path script = write("s.script", "settle\ntool Single tree\nground 30 25\npress\n");
+  open({write("l\xe4wn.toml", kLawn).string(), "--script", script.string()});
+  EXPECT_EQ(window_->ended(60), 0) << said();
+  EXPECT_EQ(state()["trees"], 1);
+  EXPECT_NE(state()["title"].get<std::string>().find("l\xef\xbf\xbdwn"), std::string::npos) << state()["title"];
+}
+
+TEST_F(WindowTask, AStateFileThatCannotBeWrittenEndsItWithOneMessage) {
+  const std::filesystem::path nowhere = folder_ / "nowhere" / "state.json";
+  Started window({BOSQUET_PROGRAM, "ui", "--state", nowhere.string()}, environment(),
+                 (folder_ / "window.log").string());
+  EXPECT_EQ(window.ended(60), 2);
+  EXPECT_NE(said().find(nowhere.string() + ": cannot be written"), std::string::npos) << said();
+}
+
 TEST_F(WindowTask, WithoutADisplayOrOpenGlItSaysWhatWorksWithoutThem) {
   const auto tried = [&](const std::vector<std::string>& environment) {
     Started window({BOSQUET_PROGRAM, "ui"}, environment, (folder_ / "window.log").string());

@@ -32,16 +32,16 @@ void Panels::ask_open(App& app) {
 }
 
 void Panels::ask_import(App& app, ImportKind kind) {
-  app.chooser_.ask(
-      FileChooser::Mode::open, "Import", import_endings(kind), "", [&app, kind](const std::filesystem::path& file) {
-        auto edit = import_file(*app.session_->document(), kind, file);
-        if (!edit) {
-          app.say(edit.error().message);
-          return;
-        }
-        app.say(edit->notes.empty() ? edit->name + " from " + file.filename().string() : edit->notes.front());
-        app.session_->apply(std::move(*edit));
-      });
+  app.chooser_.ask(FileChooser::Mode::open, "Import", import_endings(kind), "",
+                   [&app, kind](const std::filesystem::path& file) {
+                     auto edit = import_file(*app.session_->document(), kind, file);
+                     if (!edit) {
+                       app.say(edit.error().message);
+                       return;
+                     }
+                     app.say(import_words(*edit, file));
+                     app.session_->apply(std::move(*edit));
+                   });
 }
 
 void Panels::ask_save_as(App& app, std::function<void()> then) {
