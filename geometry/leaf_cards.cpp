@@ -52,13 +52,16 @@ Real softness(Real cosine, float soft) {
 
 }  // namespace
 
+CardWriter::Spread CardWriter::spread(const LeafCard& c) const {
+  const Vec3 to_top = c.length * c.heading;
+  const float facing = glm::dot(c.up, crown_.outward(c.foot + 0.5f * to_top));
+  return {to_top, c.half_width * c.left, c.half_width * c.right, facing >= 0.0f,
+          softness(std::min(1.0f, std::abs(facing) / 0.7f), soft_)};
+}
+
 void CardWriter::add_flat(const LeafCard& c) {
   const auto first = static_cast<std::uint32_t>(vertex_);
-  const Vec3 to_top = c.length * c.heading, l = c.half_width * c.left, r = c.half_width * c.right;
-  const Vec3 outward = crown_.outward(c.foot + 0.5f * to_top);
-  const float facing = glm::dot(c.up, outward);
-  const bool front = facing >= 0.0f;
-  const float soft = softness(std::min(1.0f, std::abs(facing) / 0.7f), soft_);
+  const auto [to_top, l, r, front, soft] = spread(c);
   const auto put = [&](const Vec3& p, float u, float v) {
     corner(p, unit(glm::mix(front ? c.up : -c.up, crown_.outward(p), soft), kUp), u, v, c.colour);
   };
@@ -69,11 +72,7 @@ void CardWriter::add_flat(const LeafCard& c) {
 
 void CardWriter::add_folded(const LeafCard& c) {
   const auto first = static_cast<std::uint32_t>(vertex_);
-  const Vec3 to_top = c.length * c.heading, l = c.half_width * c.left, r = c.half_width * c.right;
-  const Vec3 outward = crown_.outward(c.foot + 0.5f * to_top);
-  const float facing = glm::dot(c.up, outward);
-  const bool front = facing >= 0.0f;
-  const float soft = softness(std::min(1.0f, std::abs(facing) / 0.7f), soft_);
+  const auto [to_top, l, r, front, soft] = spread(c);
   const Vec3 flat = front ? c.up : -c.up, across = unit(c.right - c.left, c.left);
   const auto put = [&](const Vec3& p, float u, float v, float side) {
     // Halves look a little to their own side.

@@ -59,6 +59,12 @@ class CardWriter {
   TriangleMesh take();
 
  private:
+  struct Spread {
+    Vec3 to_top, left, right;  ///< from the foot's middle
+    bool front;                ///< its upper side looks out of the crown
+    float soft;                ///< how much of its normals is the crown's
+  };
+  Spread spread(const LeafCard& card) const;
   void corner(const Vec3& position, const Vec3& normal, float u, float v, Rgba8 colour);
   void strip(std::uint32_t first, std::uint32_t row, bool front);
 
