@@ -5,9 +5,8 @@
 
 #include "cli/commands.h"
 #include "cli/grown.h"
-#include "exchange/footprints.h"
 #include "exchange/ground_recipe.h"
-#include "exchange/mesh_file.h"
+#include "exchange/obstacle_import.h"
 #include "exchange/tree_import.h"
 #include "scene/project_file.h"
 #include "scene/site_edits.h"
@@ -42,44 +41,15 @@ Result<void> import_ground(const std::filesystem::path& file, scene::Document& d
   return {};
 }
 
-// A mesh, its origin on the ground at the site's south-west corner, or outlines with heights.
 Result<void> import_obstacles(const std::filesystem::path& file, scene::Document& document,
                               std::vector<std::string>& warnings) {
   if (!document.terrain)
     return Error{fmt::format("{}: the project has no site yet; import --dem or --trees first", file.string())};
-  const auto add = [&](scene::Obstacle obstacle) -> Result<void> {
-    auto edited = scene::add_obstacle(document, std::move(obstacle));
-    if (!edited) return Error{fmt::format("{}: {}", file.string(), edited.error().message)};
-    document = std::move(edited->document);
-    return {};
-  };
-  const std::string ending = file.extension().string();
-  std::size_t count = 0;
-  if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
-    auto mesh = exchange::read_mesh(file);
-    if (!mesh) return mesh.error();
-    const float ground = document.terrain->ground(Vec2(0.0f));
-    for (Vec3& p : mesh->positions) p.y += ground;
-    scene::Obstacle obstacle;
-    obstacle.name = file.stem().string();
-    obstacle.mesh = std::make_shared<const TriangleMesh>(std::move(*mesh));
-    if (auto done = add(std::move(obstacle)); !done) return done;
-    count = 1;
-  } else {
-    auto outlines = exchange::read_footprints(file, document.place, DVec2(document.terrain->size_m()));
-    if (!outlines) return outlines.error();
-    if (outlines->place) document.place = *outlines->place;
-    for (const std::string& note : outlines->notes) warnings.push_back(fmt::format("{}: {}", file.string(), note));
-    constexpr float kUsualHeight_m = 8.0f;
-    for (exchange::Footprint& f : outlines->all) {
-      if (auto done = add(scene::extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(kUsualHeight_m),
-                                          *document.terrain));
-          !done)
-        return done;
-      ++count;
-    }
-  }
-  fmt::print("{}: {} obstacle{}\n", file.string(), count, count == 1 ? "" : "s");
+  auto imported = exchange::import_obstacles(document, file);
+  if (!imported) return imported.error();
+  document = std::move(imported->document);
+  for (const std::string& note : imported->notes) warnings.push_back(fmt::format("{}: {}", file.string(), note));
+  fmt::print("{}: {} obstacle{}\n", file.string(), imported->count, imported->count == 1 ? "" : "s");
   return {};
 }
 

@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/letters.h"
 #include "exchange/elevation.h"
-#include "exchange/footprints.h"
 #include "exchange/ground_recipe.h"
-#include "exchange/mesh_file.h"
+#include "exchange/obstacle_import.h"
 #include "exchange/tree_import.h"
 #include "scene/site_edits.h"
 
 namespace bosquet::ui {
 namespace {
 
-constexpr float kUsualHeight_m = 8.0f;
 constexpr std::size_t kMostNotes = 3;  ///< that are said at once
 
 // Trees off good ground since the edit; those that were before are not its doing.
@@ -67,39 +64,12 @@ Result<scene::Edited> import_trees(const scene::Document& document, const std::f
 }
 
 Result<scene::Edited> import_buildings(const scene::Document& document, const std::filesystem::path& file) {
+  auto imported = exchange::import_obstacles(document, file);
+  if (!imported) return imported.error();
   scene::Edited edit;
-  edit.document = document;
-  std::size_t count = 0;
-  const auto add = [&](scene::Obstacle obstacle) -> Result<void> {
-    auto added = scene::add_obstacle(edit.document, std::move(obstacle));
-    if (!added) return Error{fmt::format("{}: {}", file.string(), added.error().message)};
-    edit.document = std::move(added->document);
-    ++count;
-    return {};
-  };
-  const std::string ending = folded_letters(file.extension().string());
-  if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
-    auto mesh = exchange::read_mesh(file);
-    if (!mesh) return mesh.error();
-    const float ground = document.terrain->ground(Vec2(0.0f));
-    for (Vec3& p : mesh->positions) p.y += ground;
-    scene::Obstacle obstacle;
-    obstacle.name = file.stem().string();
-    obstacle.mesh = std::make_shared<const TriangleMesh>(std::move(*mesh));
-    if (auto done = add(std::move(obstacle)); !done) return done.error();
-  } else {
-    auto outlines = exchange::read_footprints(file, document.place, DVec2(document.terrain->size_m()));
-    if (!outlines) return outlines.error();
-    if (outlines->place) edit.document.place = *outlines->place;
-    edit.notes = std::move(outlines->notes);
-    for (exchange::Footprint& f : outlines->all)
-      if (auto done = add(scene::extruded(std::move(f.name), std::move(f.outline), f.height_m.value_or(kUsualHeight_m),
-                                          *document.terrain));
-          !done)
-        return done.error();
-  }
-  if (count == 0) return Error{fmt::format("{}: holds no outline on this site", file.string())};
-  edit.name = count == 1 ? "Import a building" : fmt::format("Import {} buildings", count);
+  edit.document = std::move(imported->document);
+  edit.name = imported->count == 1 ? "Import a building" : fmt::format("Import {} buildings", imported->count);
+  edit.notes = std::move(imported->notes);
   edit.displaced = newly_displaced(document, edit.document);
   return edit;
 }
