@@ -9,7 +9,7 @@
 namespace bosquet::scene {
 namespace {
 
-constexpr int kDiscSides = 32, kEllipsoidRings = 12;
+constexpr int kDiscSides = 32;
 constexpr float kArrowWidth_m = 0.35f;
 // An asymmetry of length 1 is drawn as long as the tree's crown radius times this.
 constexpr float kArrowScale = 1.5f;
@@ -50,12 +50,13 @@ void add_quad(TriangleMesh& mesh, const std::array<Vec3, 4>& corners, Rgba8 tint
 }
 
 // A surface of revolution about the vertical through `foot`, from (radius, height) pairs upward.
-void add_lathe(TriangleMesh& mesh, const Vec3& foot, const std::vector<Vec2>& profile, Rgba8 tint) {
+void add_lathe(TriangleMesh& mesh, const Vec3& foot, const std::vector<Vec2>& profile, int sides, Rgba8 tint) {
+  const auto n = static_cast<std::uint32_t>(sides);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (std::size_t r = 0; r < profile.size(); ++r) {
     const Vec2 along = profile[std::min(r + 1, profile.size() - 1)] - profile[r ? r - 1 : 0];
-    for (int s = 0; s < kDiscSides; ++s) {
-      const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / kDiscSides);
+    for (int s = 0; s < sides; ++s) {
+      const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / static_cast<float>(sides));
       const Vec3 out(a.cos, 0.0f, -a.sin);
       mesh.positions.push_back(foot + profile[r].x * out + Vec3(0.0f, profile[r].y, 0.0f));
       const Vec3 normal = along.y * out - along.x * kUp;
@@ -64,10 +65,9 @@ void add_lathe(TriangleMesh& mesh, const Vec3& foot, const std::vector<Vec2>& pr
     }
   }
   for (std::uint32_t r = 0; r + 1 < profile.size(); ++r)
-    for (std::uint32_t s = 0; s < kDiscSides; ++s) {
-      const std::uint32_t t = (s + 1) % kDiscSides, a = first + r * kDiscSides;
-      mesh.indices.insert(mesh.indices.end(),
-                          {a + s, a + t, a + kDiscSides + t, a + s, a + kDiscSides + t, a + kDiscSides + s});
+    for (std::uint32_t s = 0; s < n; ++s) {
+      const std::uint32_t t = (s + 1) % n, a = first + r * n;
+      mesh.indices.insert(mesh.indices.end(), {a + s, a + t, a + n + t, a + s, a + n + t, a + n + s});
     }
 }
 
@@ -161,6 +161,19 @@ void add_crown_discs(Model& model, const GrownScene& scene, float y) {
 
 }  // namespace
 
+void add_shape(TriangleMesh& mesh, const Vec3& foot, const crowns::RepresentativeShape& shape, float scale_height,
+               float scale_width, const ShapeLook& look) {
+  const float half = 0.5f * scale_height * shape.crown_height_m(), middle = scale_height * shape.trunk_height_m + half;
+  const float trunk = 0.5f * scale_width * shape.trunk_width_m, crown = 0.5f * scale_width * shape.crown_width_m;
+  add_lathe(mesh, foot, {{trunk, 0.0f}, {trunk, middle}}, look.sides, look.trunk);
+  std::vector<Vec2> profile;
+  for (int r = 0; r <= look.rings; ++r) {
+    const SinCos a = sin_cos(kPi * static_cast<float>(r) / static_cast<float>(look.rings));
+    profile.emplace_back(crown * a.sin, middle - half * a.cos);
+  }
+  add_lathe(mesh, foot, profile, look.sides, look.crown);
+}
+
 Result<Model> shapes_model(const GrownScene& scene) {
   Model model;
   model.cameras = scene.document.cameras;
@@ -173,16 +186,9 @@ Result<Model> shapes_model(const GrownScene& scene) {
     const crowns::Claimant& claim = claims[i];
     const Tree& tree = (*scene.document.trees)[i];
     const Vec3 foot = to_world(claim.base, claim.ground_y);
-    const float base = claim.scale_height * claim.shape.trunk_height_m,
-                half = 0.5f * claim.scale_height * claim.shape.crown_height_m();
-    const float trunk = claim.trunk_radius_m(), crown = claim.crown_radius_m();
-    add_lathe(mesh, foot, {{trunk, 0.0f}, {trunk, base + half}}, colour({0.18f, 0.13f, 0.09f}));
-    std::vector<Vec2> profile;
-    for (int r = 0; r <= kEllipsoidRings; ++r) {
-      const SinCos a = sin_cos(kPi * static_cast<float>(r) / kEllipsoidRings);
-      profile.emplace_back(crown * a.sin, base + half - half * a.cos);
-    }
-    add_lathe(mesh, foot, profile, colour(0.7f * hashed_colour(hash_text(scene.document.species_of(tree).name))));
+    add_shape(mesh, foot, claim.shape, claim.scale_height, claim.scale_width,
+              {.trunk = colour({0.18f, 0.13f, 0.09f}),
+               .crown = colour(0.7f * hashed_colour(hash_text(scene.document.species_of(tree).name)))});
   }
   add_node(model, "shapes", std::move(mesh), material);
   for (const Obstacle& obstacle : scene.document.obstacles) add_node(model, obstacle.name, *obstacle.mesh, material);

@@ -11,10 +11,20 @@
 #include <optional>
 
 #include "core/result.h"
+#include "core/triangle_mesh.h"
 #include "scene/grown_scene.h"
 #include "scene/model.h"
 
 namespace bosquet::scene {
+
+/// Quads around, rings of the ellipsoid from its lowest to its highest point, linear tints.
+struct ShapeLook {
+  int sides = 32, rings = 12;
+  Rgba8 trunk, crown;
+};
+/// Adds what a tree claims space with, its trunk and an ellipsoid, as surfaces of revolution about the vertical through `foot`.
+void add_shape(TriangleMesh& mesh, const Vec3& foot, const crowns::RepresentativeShape& shape, float scale_height,
+               float scale_width, const ShapeLook& look);
 
 Result<Model> shapes_model(const GrownScene& scene);
 

@@ -27,7 +27,6 @@ constexpr std::size_t kHeroTriangles = 150'000;
 constexpr double kMoment_s = 0.25;
 constexpr double kStill_s = 0.35;
 constexpr double kSlowDraft_s = 0.12;
-constexpr int kSides = 14, kRings = 7;
 
 bool ready(const auto& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -37,34 +36,8 @@ bool ready(const auto& future) {
 
 TriangleMesh shape_mesh(const crowns::RepresentativeShape& shape, float scale_height, float scale_width) {
   TriangleMesh mesh;
-  const auto lathe = [&](const std::vector<Vec2>& profile, const Rgba8& tint) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::size_t r = 0; r < profile.size(); ++r) {
-      const Vec2 along = profile[std::min(r + 1, profile.size() - 1)] - profile[r ? r - 1 : 0];
-      for (int s = 0; s < kSides; ++s) {
-        const SinCos a = sin_cos(2.0f * kPi * static_cast<float>(s) / kSides);
-        const Vec3 out(a.cos, 0.0f, -a.sin);
-        mesh.positions.push_back(profile[r].x * out + Vec3(0.0f, profile[r].y, 0.0f));
-        const Vec3 normal = along.y * out - along.x * kUp;
-        mesh.normals.push_back(glm::dot(normal, normal) > 0.0f ? glm::normalize(normal) : kUp);
-        mesh.colours.push_back(tint);
-      }
-    }
-    for (std::uint32_t r = 0; r + 1 < profile.size(); ++r)
-      for (std::uint32_t s = 0; s < kSides; ++s) {
-        const std::uint32_t t = (s + 1) % kSides, a = first + r * kSides;
-        mesh.indices.insert(mesh.indices.end(), {a + s, a + t, a + kSides + t, a + s, a + kSides + t, a + kSides + s});
-      }
-  };
-  const float half = 0.5f * scale_height * shape.crown_height_m(), middle = scale_height * shape.trunk_height_m + half;
-  const float trunk = 0.5f * scale_width * shape.trunk_width_m, crown = 0.5f * scale_width * shape.crown_width_m;
-  lathe({{trunk, 0.0f}, {trunk, middle}}, Rgba8(27, 17, 9, 255));
-  std::vector<Vec2> profile;
-  for (int r = 0; r <= kRings; ++r) {
-    const SinCos a = sin_cos(kPi * static_cast<float>(r) / kRings);
-    profile.push_back({std::max(crown * a.sin, 1e-3f), middle - half * a.cos});
-  }
-  lathe(profile, Rgba8(34, 62, 20, 255));
+  scene::add_shape(mesh, Vec3(0.0f), shape, scale_height, scale_width,
+                   {.sides = 14, .rings = 7, .trunk = Rgba8(27, 17, 9, 255), .crown = Rgba8(34, 62, 20, 255)});
   return mesh;
 }
 
