@@ -200,7 +200,17 @@ class Desktop : public ::testing::Test {
     }
     return {box[0].get<float>() + 0.5f * box[2].get<float>(), box[1].get<float>() + 0.5f * box[3].get<float>()};
   }
-  void press(const std::string& name) const { click(widget(name)); }
+  /// Clicks a widget once it stays where it is: a dialog that has just come may still move.
+  void press(const std::string& name) const {
+    Vec2 at = widget(name);
+    for (int turn = 0; turn < 20; ++turn) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(250));
+      const Vec2 now = widget(name);
+      if (now == at) break;
+      at = now;
+    }
+    click(at);
+  }
   /// Where a point of the scene is on the screen, as a share of the scene's part of the window.
   Vec2 scene(float x, float y) const {
     const Json view = state()["view"];
