@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "cli/command_words.h"
 #include "cli/options.h"
 #include "cli/version.h"
 
@@ -15,19 +16,28 @@ CLI::Validator within(double low, double high) {
       [low, high](std::string& text) {
         double value = 0;
         if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
-        return "'" + text + "' must be a number from " + CLI::detail::to_string(low) + " to " +
-               CLI::detail::to_string(high);
+        const std::string allowed =
+            "' must be a number from " + CLI::detail::to_string(low) + " to " + CLI::detail::to_string(high);
+        const auto comma = text.find(',');
+        if (comma == std::string::npos) return "'" + text + allowed;
+        std::string with_point = text;
+        with_point[comma] = '.';
+        return CLI::detail::lexical_cast(with_point, value)
+                   ? "'" + text + allowed + "; decimals stand behind a point: " + with_point
+                   : "'" + text + allowed;
       },
       "");
 }
 
 // A whole number from 0 on; CLI11 lets negative and overlong ones wrap round.
-CLI::Validator whole() {
+CLI::Validator whole(std::uint64_t most = 999'999'999'999'999'999) {
   return CLI::Validator(
-      [](std::string& text) {
+      [most](std::string& text) {
         const bool digits =
             !text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string() : "'" + text + "' must be a whole number from 0 to 999999999999999999";
+        return digits && std::stoull(text) <= most
+                   ? std::string()
+                   : "'" + text + "' must be a whole number from 0 to " + std::to_string(most);
       },
       "");
 }
@@ -59,6 +69,10 @@ void add_threads(CLI::App* app, Options& o) {
   app->add_option("--threads", o.threads, "Threads to use; 0 is one per core")
       ->check(CLI::Range(0, 1024))
       ->option_text("N");
+}
+
+void add_replace(CLI::App* app, Options& o) {
+  app->add_flag("--replace", o.replace, "A project or recipe that stands in an output's place may be lost");
 }
 
 void add_quiet(CLI::App* app, Options& o) { app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings"); }
@@ -108,7 +122,7 @@ void add_scene(CLI::App* app, Options& o) {
       ->transform(one_of(by_name<geometry::FoliageLevel>(geometry::kFoliageLevelNames)))
       ->option_text("LEVEL");
   app->add_option("--max-triangles", o.max_triangles, "Triangle budget of the scene; 0 is no limit")
-      ->check(whole())
+      ->check(whole(1'000'000'000))
       ->option_text("N");
 }
 
@@ -171,6 +185,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   make->add_option("--tree", o.tree, "The tree, by its id, that goes into an output NAME.tree.json")
       ->check(whole())
       ->option_text("ID");
+  add_replace(make, o);
   add_scene(make, o), add_gltf(make, o), add_picture(make, o), add_common(make, o);
   make->callback([&] { o.command = Command::make; });
 
@@ -209,7 +224,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App* recover = app.add_subcommand("recover", "Lists what sessions left that ended without saving, and saves it");
   recover->add_option("name", o.recovery, "list (the default), or a name of the list")->option_text("list|NAME");
   recover->add_option("-o,--output", o.outputs, "Project to save it as (.bosquet)")->expected(1)->option_text("FILE");
-  add_quiet(recover, o);
+  add_replace(recover, o), add_quiet(recover, o);
   recover->callback([&, recover] {
     const bool list = o.recovery.empty() || o.recovery == "list";
     if (list == !o.outputs.empty())
@@ -288,7 +303,13 @@ ParsedLine parse_command_line(int argc, char** argv) {
       throw CLI::ValidationError("--year", "one age; only make takes several, a set of files for each");
     if (o.years.size() == 1) o.grow.year = o.years.front();
   } catch (const CLI::ParseError& e) {
-    parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
+    // A word that nothing knows is the mistake behind whatever else is missing then.
+    const auto wrong = e.get_exit_code() == 0 ? std::nullopt : wrong_word(app, {argv + 1, argv + argc});
+    if (wrong)
+      std::fprintf(stderr, "bosquet: %s\nRun with --help for more information.\n", wrong->c_str()),
+          parsed.exit_status = 1;
+    else
+      parsed.exit_status = app.exit(e) == 0 ? 0 : 1;
   }
   return parsed;
 }

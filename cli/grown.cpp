@@ -15,8 +15,6 @@
 namespace bosquet::cli {
 namespace {
 
-constexpr std::size_t kShownWarnings = 12;
-
 // What is read is never replaced by what is made from it.
 Result<void> refuse_overwriting(const std::vector<std::filesystem::path>& inputs, const Options& options) {
   std::vector<std::filesystem::path> targets = options.outputs;
@@ -89,6 +87,7 @@ Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Pr
   auto grown = scene::grow_scene(*document, options.grow, &progress);
   if (!grown) return grown.error();
   report.trees = grown->trees.size();
+  report.removed = grown->given.trees->size() - grown->document.trees->size();
   report.internodes = grown->internodes();
   report.voxels = grown->space.claimed_voxels();
   report.skeleton_digest = grown->skeleton_digest();
@@ -97,12 +96,22 @@ Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Pr
   return grown;
 }
 
-void print_warnings(const std::vector<std::string>& warnings, bool quiet) {
+void print_warnings(const std::vector<std::string>& warnings, bool quiet, std::size_t most) {
   if (quiet) return;
-  for (std::size_t i = 0; i < std::min(kShownWarnings, warnings.size()); ++i)
-    fmt::print(stderr, "warning: {}\n", warnings[i]);
-  if (warnings.size() > kShownWarnings)
-    fmt::print(stderr, "warning: and {} more; --report FILE.json lists all\n", warnings.size() - kShownWarnings);
+  for (std::size_t i = 0; i < std::min(most, warnings.size()); ++i) fmt::print(stderr, "warning: {}\n", warnings[i]);
+  if (warnings.size() > most)
+    fmt::print(stderr, "warning: and {} more; make with --report FILE.json lists all\n", warnings.size() - most);
+}
+
+std::string shell_word(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c >= 0x80 ||
+           std::string_view("_./-+,:@%=").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 }  // namespace bosquet::cli

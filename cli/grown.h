@@ -14,7 +14,12 @@ Result<scene::Document> load_document(const Options& options, Report& report, Pr
 /// Loads the document and grows it.
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress);
 
-/// Prints warnings on stderr unless quiet; long lists are cut, the report has them all.
-void print_warnings(const std::vector<std::string>& warnings, bool quiet);
+inline constexpr std::size_t kShownWarnings = 12, kImportWarnings = 100;
+
+/// Prints warnings on stderr unless quiet; longer lists than `most` are cut, the report has them all.
+void print_warnings(const std::vector<std::string>& warnings, bool quiet, std::size_t most = kShownWarnings);
+
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(const std::string& word);
 
 }  // namespace bosquet::cli

@@ -41,9 +41,34 @@ std::string toml_text(const std::string& text) {
 }
 
 Result<Extent> extent_of_trees(const exchange::Inventory& inventory, const path& file) {
-  if (inventory.trees.empty()) return Error{fmt::format("{}: no row has a usable position", file.string())};
-  const auto [corner, size] = exchange::site_around(inventory.trees);
+  if (inventory.trees.empty()) {
+    const auto lines = exchange::problem_lines(inventory.problems, file.string(), inventory.features, 1);
+    return Error{lines.empty() ? fmt::format("{}: has no tree", file.string())
+                               : fmt::format("{}: no row has a usable position: {}", file.string(), lines.front())};
+  }
+  const auto species = exchange::species_to_name({});
+  if (!species) return species.error();
+  const std::string fallback = exchange::TreeImport().fallback;
+  const auto found = std::find_if(species->begin(), species->end(), [&](const auto& s) { return s->name == fallback; });
+  const auto [corner, size] =
+      exchange::site_around(inventory.trees, *species, static_cast<std::size_t>(found - species->begin()));
   return Extent{corner, size};
+}
+
+// What a planting of the finished recipe makes of its inventory, told.
+Result<void> tell_trees(const exchange::Recipe& recipe, const Extent& site, const path& file, bool quiet) {
+  const exchange::PlantingRecipe& planting = recipe.plantings.back();
+  exchange::TreeImport reading = planting.import;
+  reading.reading.site = recipe.document.place;
+  reading.reading.site.south_west = site.south_west;
+  reading.reading.size_m = site.size;
+  reading.status = planting.order.status;
+  auto trees = exchange::read_trees(file, reading, recipe.document.seed, recipe.document.species.all(),
+                                    planting.default_species);
+  if (!trees) return trees.error();
+  print_warnings(trees->warnings, quiet, kImportWarnings);
+  fmt::print("{}: {}\n", file.string(), exchange::words(trees->tally, exchange::is_vector_file(file)));
+  return {};
 }
 
 // Puts `lines` right under the header of a table, or makes the table at the end.
@@ -118,8 +143,6 @@ Result<void> run_import(const Options& options) {
     }
     auto inventory = exchange::read_inventory(options.inventory, reading);
     if (!inventory) return inventory.error();
-    print_warnings(exchange::problem_lines(inventory->problems, options.inventory.string(), inventory->features),
-                   options.quiet);
     if (!site) {
       auto extent = extent_of_trees(*inventory, options.inventory);
       if (!extent) return extent.error();
@@ -134,7 +157,6 @@ Result<void> run_import(const Options& options) {
     for (int n = 2; names.contains(name); ++n) name = fmt::format("{} {}", options.inventory.stem().string(), n);
     trees = fmt::format("\n[[planting]]\nname = {}\nkind = \"inventory\"\nfile = {}\n", toml_text(name),
                         toml_text(path_from(options.file, options.inventory)));
-    fmt::print("{}: {} trees\n", options.inventory.string(), inventory->trees.size());
   }
 
   if (fresh)
@@ -142,10 +164,13 @@ Result<void> run_import(const Options& options) {
                         site->south_west.x, site->south_west.y, crs);
   if (!ground.empty()) *text = with_table_lines(std::move(*text), "[terrain]", ground);
   *text += trees;
-  if (auto fine = exchange::parse_recipe(*text, options.file); !fine) return fine.error();
+  auto recipe = exchange::parse_recipe(*text, options.file);
+  if (!recipe) return recipe.error();
+  if (!options.inventory.empty())
+    if (auto told = tell_trees(*recipe, *site, options.inventory, options.quiet); !told) return told;
   if (auto written = exchange::write_file(options.file, *text); !written) return written.error();
   fmt::print("{}: site {:g} x {:g} m; grow it with: bosquet make {} -o OUT.glb\n", options.file.string(), site->size.x,
-             site->size.y, options.file.string());
+             site->size.y, shell_word(options.file.string()));
   return {};
 }
 

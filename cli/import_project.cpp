@@ -78,11 +78,12 @@ Result<void> import_into_project(const Options& options) {
     if (!imported) return imported.error();
     document = std::move(imported->document);
     warnings.insert(warnings.end(), imported->warnings.begin(), imported->warnings.end());
-    fmt::print("{}: {} trees\n", options.inventory.string(), imported->trees);
+    fmt::print("{}: {}\n", options.inventory.string(),
+               exchange::words(imported->tally, exchange::is_vector_file(options.inventory)));
   }
   if (!options.obstacle.empty())
     if (auto done = import_obstacles(options.obstacle, document, warnings); !done) return done;
-  print_warnings(warnings, options.quiet);
+  print_warnings(warnings, options.quiet, kImportWarnings);
 
   if (file) {
     if (auto done = file->save(document); !done) return done;
@@ -90,8 +91,8 @@ Result<void> import_into_project(const Options& options) {
     return written.error();
   }
   const Vec2 size = document.terrain->size_m();
-  fmt::print("{}: site {:g} x {:g} m, {} trees; grow it with: bosquet make {} -o OUT.glb\n", options.file.string(),
-             size.x, size.y, document.trees->size(), options.file.string());
+  fmt::print("{}: site {:g} x {:g} m, {}; grow it with: bosquet make {} -o OUT.glb\n", options.file.string(), size.x,
+             size.y, count_of(document.trees->size(), "tree"), shell_word(options.file.string()));
   return {};
 }
 

@@ -107,8 +107,8 @@ Result<void> document_info(const Options& options) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return {};
   }
-  fmt::print("{}: {}, site {:g} x {:g} m, {} trees\n", options.file.string(), project ? "project" : "recipe", size.x,
-             size.y, document->trees->size());
+  fmt::print("{}: {}, site {:g} x {:g} m, {}\n", options.file.string(), project ? "project" : "recipe", size.x, size.y,
+             count_of(document->trees->size(), "tree"));
   for (const auto& [name, n] : count) fmt::print("{} {}\n", n, name);
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   return {};
@@ -123,7 +123,8 @@ Result<void> run_info(const Options& options) {
     return document_info(options);
   }
   if (ending != ".glb" && ending != ".gltf")
-    return Error{fmt::format("{}: info reads .glb, .gltf, projects (.bosquet) and recipes (.toml)", options.file.string())};
+    return Error{
+        fmt::format("{}: info reads .glb, .gltf, projects (.bosquet) and recipes (.toml)", options.file.string())};
   auto info = exchange::read_gltf_info(options.file);
   if (!info) return info.error();
   exchange::GltfCheck check;

@@ -8,6 +8,7 @@
 #include "cli/grown.h"
 #include "cli/picture.h"
 #include "cli/progress_display.h"
+#include "cli/replacing.h"
 #include "cli/version.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -116,7 +117,7 @@ Result<std::uint64_t> write_one_tree(const Made& made, const path& target) {
 }
 
 Result<std::uint64_t> write_project_file(const Made& made, const path& target) {
-  return scene::write_project(made.grown.given, target);
+  return scene::write_project(made.grown.given, target, way_between(target, made.options.file));
 }
 
 Result<std::uint64_t> write_recipe_files(const Made& made, const path& target) {
@@ -131,11 +132,20 @@ struct Format {
   Writer write;
   bool model;  ///< needs meshes
 };
-constexpr Format kFormats[] = {
-    {".glb", write_model, true}, {".gltf", write_model, true},  {".plan.png", write_plan, false}, {".svg", write_plan, false}, {".dxf", write_plan, false}, {".png", write_png, true},
-    {".csv", write_csv, false},  {".gpkg", write_map, false},   {".geojson", write_map, false},
-    {".shp", write_map, false},  {".vdb", write_voxels, false}, {".json", write_one_tree, false},
-    {".bosquet", write_project_file, false}, {".toml", write_recipe_files, false}};
+constexpr Format kFormats[] = {{".glb", write_model, true},
+                               {".gltf", write_model, true},
+                               {".plan.png", write_plan, false},
+                               {".svg", write_plan, false},
+                               {".dxf", write_plan, false},
+                               {".png", write_png, true},
+                               {".csv", write_csv, false},
+                               {".gpkg", write_map, false},
+                               {".geojson", write_map, false},
+                               {".shp", write_map, false},
+                               {".vdb", write_voxels, false},
+                               {".json", write_one_tree, false},
+                               {".bosquet", write_project_file, false},
+                               {".toml", write_recipe_files, false}};
 
 const Format* format_of(const path& target) {
   std::string ending = exchange::lower_ending(target);
@@ -151,30 +161,45 @@ Result<void> check_folder(const path& target) {
   if (!std::filesystem::is_directory(folder, ec))
     return Error{fmt::format("{}: the folder {} does not exist; make it first", target.string(), folder.string())};
   if (std::filesystem::exists(target, ec) && !std::filesystem::is_regular_file(target, ec) &&
-      !std::filesystem::is_directory(target, ec) && !std::filesystem::is_character_file(target, ec))
+      !std::filesystem::is_character_file(target, ec))
     return Error{fmt::format("{}: is no regular file", target.string())};
   if (::access(folder.c_str(), W_OK) != 0)
     return Error{fmt::format("{}: no permission to write in {}", target.string(), folder.string())};
-  if (std::filesystem::is_directory(target, ec))
-    return Error{fmt::format("{}: is a folder, not a file", target.string())};
   return {};
 }
 
+constexpr const char* kKnownOutputs =
+    ".glb .gltf .png .plan.png .svg .dxf .csv .species.csv .gpkg .geojson .shp .vdb .tree.json .bosquet .toml";
+
+Result<void> check_kind(const path& target, bool picture_only) {
+  std::error_code ec;
+  const char* known = picture_only ? ".png" : kKnownOutputs;
+  if (std::filesystem::is_directory(target, ec))
+    return Error{fmt::format("{}: is a folder; name a file in it, its ending one of: {}", target.string(), known)};
+  if (picture_only ? exchange::lower_ending(target) == ".png" : format_of(target) != nullptr) return {};
+  if (target.extension().empty())
+    return Error{fmt::format("{}: has no ending, which tells what to write; known: {}", target.string(), known)};
+  return Error{
+      fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(), target.extension().string(), known)};
+}
+
 // What can be known to fail is refused before anything grows.
-Result<void> check_targets(const Options& options, bool picture_only) {
+Result<void> check_targets(const Options& options) {
   std::set<path> seen;
+  const auto is_tree = [](const path& target) { return target.extension() == ".json"; };
   for (const path& target : options.outputs) {
-    if (picture_only ? target.extension() != ".png" : !format_of(target))
-      return Error{
-          fmt::format("{}: unknown kind of output '{}'; known: {}", target.string(), target.extension().string(),
-                      picture_only ? ".png" : ".glb .gltf .png .plan.png .svg .dxf .csv .species.csv .gpkg .geojson .shp .vdb .tree.json .bosquet .toml")};
-    if (const bool tree = target.extension() == ".json";
-        tree && (!options.tree || target.stem().extension() != ".tree"))
+    if (auto fine = check_kind(target, options.command == Command::render); !fine) return fine;
+    if (is_tree(target) && (!options.tree || target.stem().extension() != ".tree"))
       return Error{fmt::format("{}: a tree is saved with --tree ID as NAME.tree.json", target.string())};
     if (auto fine = check_folder(target); !fine) return fine;
+    // What is read is refused as such when its names are known.
+    if (std::error_code ec; !std::filesystem::equivalent(target, options.file, ec))
+      if (auto fine = check_replacing(target, options.file, options.replace); !fine) return fine;
     if (!seen.insert(std::filesystem::absolute(target).lexically_normal()).second)
       return Error{fmt::format("{}: is asked for twice", target.string())};
   }
+  if (options.tree && std::none_of(options.outputs.begin(), options.outputs.end(), is_tree))
+    return Error{fmt::format("--tree {}: needs an output that it goes into, -o NAME.tree.json", *options.tree)};
   return options.report.empty() ? Result<void>() : check_folder(options.report);
 }
 
@@ -237,7 +262,6 @@ path of_year(const path& target, float year) {
 }
 
 Result<void> make_and_report(const Options& options) {
-  if (auto fine = check_targets(options, options.command == Command::render); !fine) return fine;
   Report report;
   Progress progress;
   Result<void> done;
@@ -250,8 +274,12 @@ Result<void> make_and_report(const Options& options) {
   if (!options.report.empty())
     if (auto written = write_report(options.report, report); !written) return written;
   if (!options.quiet) {
-    fmt::print("{} trees, {} internodes, {} triangles in {:.1f} s\n", report.trees, report.internodes, report.triangles,
-               report.seconds["total"]);
+    std::string line = fmt::format("{}, {} internodes", count_of(report.trees, "tree"), report.internodes);
+    if (report.triangles > 0) line += fmt::format(", {} triangles", report.triangles);
+    fmt::print("{} in {:.1f} s\n", line, report.seconds["total"]);
+    if (report.removed > 0)
+      fmt::print("{} more to be removed, so not grown; schedules and plans list {}\n", count_of(report.removed, "tree"),
+                 report.removed == 1 ? "it" : "them");
     for (const auto& [output, bytes] : report.bytes) {
       const auto required = report.required_extensions.find(output);
       fmt::print("{}  {}{}\n", output, readable_bytes(bytes),
@@ -266,18 +294,28 @@ Result<void> make_and_report(const Options& options) {
 }  // namespace
 
 Result<void> run_make(const Options& options) {
-  if (options.years.size() < 2) return make_and_report(options);
+  if (options.years.size() < 2) {
+    if (auto fine = check_targets(options); !fine) return fine;
+    return make_and_report(options);
+  }
   scene::SkeletonCache skeletons;  // years only change how much of a tree is shown
+  std::vector<Options> all;
   for (const float year : options.years) {
-    Options at = options;
+    Options& at = all.emplace_back(options);
     at.grow.year = year;
     at.grow.skeletons = &skeletons;
     for (path& target : at.outputs) target = of_year(target, year);
     if (!at.report.empty()) at.report = of_year(at.report, year);
-    if (auto done = make_and_report(at); !done) return done;
+    if (auto fine = check_targets(at); !fine) return fine;
   }
+  for (const Options& at : all)
+    if (auto done = make_and_report(at); !done) return done;
   return {};
 }
-Result<void> run_render(const Options& options) { return make_and_report(options); }
+
+Result<void> run_render(const Options& options) {
+  if (auto fine = check_targets(options); !fine) return fine;
+  return make_and_report(options);
+}
 
 }  // namespace bosquet::cli

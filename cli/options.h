@@ -37,6 +37,7 @@ struct Options {
   Command command = Command::none;
   std::filesystem::path file;
   std::vector<std::filesystem::path> outputs;
+  bool replace = false;  ///< projects and recipes among the outputs may be lost
   std::string species;
   std::vector<std::string> names;  ///< of species, or .toml files of them
 

@@ -53,15 +53,15 @@ ProgressDisplay::~ProgressDisplay() {
 
 void ProgressDisplay::show_until_stopped() {
   std::string stage;
-  auto stage_start = Clock::now();
+  const auto start = Clock::now();
+  auto stage_start = start;
   double last_plain_s = 0.0;
   while (!stop_.load()) {
     const std::string now = progress_.stage();
     const std::size_t done = progress_.done(), total = progress_.total();
     // The counts are read one after the other while work goes on, so done may exceed total for a moment.
     const double share = total ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0.0;
-    const bool fresh = now != stage;
-    if (fresh) stage = now, stage_start = Clock::now(), last_plain_s = 0.0;
+    if (now != stage) stage = now, stage_start = Clock::now();
     const double elapsed = seconds_since(stage_start);
     if (!stage.empty() && terminal_) {
       const auto filled = static_cast<std::size_t>(share * kBarWidth);
@@ -72,8 +72,9 @@ void ProgressDisplay::show_until_stopped() {
         fmt::print(stderr, "\r\033[K{} [{}] {:3.0f} %  {}/{}  {}", stage, bar, 100.0 * share, done, total,
                    time_left(elapsed, share));
       std::fflush(stderr);
-    } else if (!stage.empty() && (fresh || elapsed - last_plain_s >= kPlainLineEvery_s)) {
-      last_plain_s = elapsed;
+    } else if (const double running = seconds_since(start);
+               !stage.empty() && running - last_plain_s >= kPlainLineEvery_s) {
+      last_plain_s = running;
       if (total == 0)
         fmt::print(stderr, "{}\n", stage);
       else

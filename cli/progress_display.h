@@ -1,7 +1,7 @@
 // Progress display: shows a Progress on stderr while work runs elsewhere.
 //
-// On a terminal one line is rewritten: stage, percent, items done, time left. Otherwise a plain line is printed at the
-// start of each stage and every ten seconds. Interrupts (Ctrl-C, SIGTERM) cancel the work.
+// On a terminal one line is rewritten: stage, percent, items done, time left. Otherwise a plain line is printed
+// every ten seconds. Interrupts (Ctrl-C, SIGTERM) cancel the work.
 #pragma once
 
 #include <thread>

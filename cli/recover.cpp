@@ -4,13 +4,22 @@
 
 #include "cli/commands.h"
 #include "cli/grown.h"
+#include "cli/replacing.h"
+#include "exchange/file_output.h"
 #include "scene/project_file.h"
 #include "scene/recovery.h"
 
 namespace bosquet::cli {
 namespace {
 
-std::string edits_words(std::uint64_t n) { return fmt::format("{} edit{}", n, n == 1 ? "" : "s"); }
+std::string edits_words(std::uint64_t n) { return count_of(n, "edit"); }
+
+// A session that opened a recipe, or nothing, has no project yet.
+std::string project_words(const scene::Recovery& r) {
+  if (r.project.empty()) return "a document that was never saved";
+  if (exchange::lower_ending(r.project) == ".bosquet") return r.project.string();
+  return fmt::format("the recipe {}", r.project.string());
+}
 
 }  // namespace
 
@@ -18,8 +27,7 @@ Result<void> run_recover_list(const Options&) {
   const std::vector<scene::Recovery> all = scene::list_recoveries();
   if (all.empty()) fmt::print("nothing to recover in {}\n", scene::recovery_folder().string());
   for (const scene::Recovery& r : all)
-    fmt::print("{}  {}, {}, of {}{}\n", r.name, scene::time_words(r.time), edits_words(r.edits),
-               r.project.empty() ? "a document that was never saved" : r.project.string(),
+    fmt::print("{}  {}, {}, of {}{}\n", r.name, scene::time_words(r.time), edits_words(r.edits), project_words(r),
                r.in_use ? "; a session has it open" : "");
   return {};
 }
@@ -34,13 +42,14 @@ Result<void> run_recover(const Options& options) {
   const std::filesystem::path& target = options.outputs.front();
   if (target.extension() != ".bosquet")
     return Error{fmt::format("{}: a recovered document is saved as a project, a .bosquet file", target.string())};
+  if (auto fine = check_replacing(target, {}, options.replace); !fine) return fine;
   auto recovered = scene::recover(*found);
   if (!recovered) return recovered.error();
   if (auto written = scene::write_project(recovered->document, target); !written) return written.error();
   print_warnings(scene::lines(recovered->state), options.quiet);
   // It is safe under its new name, unless a part was lost.
   if (!recovered->state.damaged) scene::discard(*found);
-  fmt::print("{}: {} trees, as of {}, with {}\n", target.string(), recovered->document.trees->size(),
+  fmt::print("{}: {}, as of {}, with {}\n", target.string(), count_of(recovered->document.trees->size(), "tree"),
              scene::time_words(found->time), edits_words(found->edits));
   return {};
 }

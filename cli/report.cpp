@@ -1,5 +1,6 @@
 #include "cli/report.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,10 @@ constexpr const char* kStages[] = {"terrain",  "distribution", "crowns", "light"
                                    "geometry", "textures",     "export", "total"};
 
 }  // namespace
+
+std::string count_of(std::uint64_t n, std::string_view thing) {
+  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
 
 double peak_rss_mb() {
   rusage usage{};

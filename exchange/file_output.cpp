@@ -41,6 +41,8 @@ Error describe(const std::filesystem::path& target, int number) {
   switch (number) {
     case ENOENT:
     case ENOTDIR:
+      if (std::error_code ec; std::filesystem::is_directory(folder, ec))
+        return {fmt::format("cannot write {}: no file can be made in {}", path, folder)};
       return {fmt::format("cannot write {}: there is no folder {}", path, folder)};
     case EACCES:
     case EPERM:

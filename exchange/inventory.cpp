@@ -104,10 +104,37 @@ constexpr StatusWord kStatusWords[]{{"proposed", proposed},
                                     {"heritage", to_protect},
                                     {"veteran", to_protect}};
 
+constexpr InventoryField kNumberFields[]{
+    InventoryField::east,           InventoryField::north,      InventoryField::height, InventoryField::trunk_diameter,
+    InventoryField::crown_diameter, InventoryField::clear_stem, InventoryField::age};
+using MarksOfColumns = std::vector<NumberMarks>;  ///< one for each column of the table
+
+// What decimal marks the columns with numbers have.
+MarksOfColumns look_at_marks(TreeTable& table, const FoundColumns& columns) {
+  std::vector<SeenMarks> seen(table.columns.size());
+  TableRow row;
+  while (table.next(row)) {
+    if (!row.problem.empty()) continue;
+    for (const InventoryField field : kNumberFields)
+      if (const int i = columns[field].index; i >= 0)
+        seen[static_cast<std::size_t>(i)].look(row.fields[static_cast<std::size_t>(i)]);
+  }
+  table.restart();
+  SeenMarks all;
+  for (const SeenMarks& column : seen) {
+    all.commas += column.commas;
+    all.clear_commas += column.clear_commas, all.clear_points += column.clear_points;
+  }
+  MarksOfColumns marks;
+  for (const SeenMarks& column : seen) marks.push_back(marks_of(column, all, table.decimal_comma));
+  return marks;
+}
+
 class RowReader {
  public:
-  RowReader(const TreeTable& table, const FoundColumns& columns, bool by_columns, Inventory& out)
-      : table_(table), columns_(columns), by_columns_(by_columns), out_(out) {}
+  RowReader(const TreeTable& table, const FoundColumns& columns, const MarksOfColumns& marks, bool by_columns,
+            Inventory& out)
+      : table_(table), columns_(columns), marks_(marks), by_columns_(by_columns), out_(out) {}
 
   void read(TableRow& row) {
     line_ = row.line;
@@ -172,14 +199,30 @@ class RowReader {
     return out;
   }
 
+  NumberText number_in(const FoundColumn& c) const {
+    return read_number(text(c.index), marks_[static_cast<std::size_t>(c.index)]);
+  }
+  // "1.234" in a file that has decimal commas.
+  std::string doubt(const FoundColumn& c) const {
+    const std::string& said = text(c.index);
+    const char mark = said[said.find_first_of(".,")];
+    std::string whole = said, decimal = said;
+    whole.erase(whole.find(mark), 1), decimal[decimal.find(mark)] = mark == '.' ? ',' : '.';
+    return fmt::format("{} is \"{}\", which may be {} or {}: the file's decimals stand behind a {}", column(c), said,
+                       whole, decimal, mark == '.' ? "comma" : "point");
+  }
+
   bool position(const FoundColumn& c, double& out) {
-    const NumberText number = read_number(text(c.index), table_.decimal_comma);
+    const NumberText number = number_in(c);
     switch (number.reading) {
       case NumberReading::missing:
         refuse(fmt::format("{} is missing", column(c)));
         return false;
       case NumberReading::text:
         refuse(fmt::format("{} is {}, not a number", column(c), excerpt(text(c.index))));
+        return false;
+      case NumberReading::doubtful:
+        refuse(doubt(c));
         return false;
       case NumberReading::number:
         break;
@@ -190,7 +233,8 @@ class RowReader {
 
   std::optional<double> number(const FoundColumn& c, std::optional<double>* metres) {
     if (c.index < 0) return {};
-    const NumberText read = read_number(text(c.index), table_.decimal_comma);
+    const NumberText read = number_in(c);
+    if (read.reading == NumberReading::doubtful) note(doubt(c));
     if (read.reading == NumberReading::text)
       note(fmt::format("{} is {}, not a number", column(c), excerpt(text(c.index))));
     if (read.reading != NumberReading::number) return {};
@@ -232,6 +276,7 @@ class RowReader {
 
   const TreeTable& table_;
   const FoundColumns& columns_;
+  const MarksOfColumns& marks_;
   bool by_columns_;
   Inventory& out_;
   int line_ = 0;
@@ -239,13 +284,13 @@ class RowReader {
 };
 
 // Whether a trunk column without unit can be metres.
-bool fits_metres(TreeTable& table, const FoundColumn& trunk) {
+bool fits_metres(TreeTable& table, const FoundColumn& trunk, const NumberMarks& marks) {
   TableRow row;
   bool fits = true;
   while (fits && table.next(row)) {
     const auto i = static_cast<std::size_t>(trunk.index);
     if (!row.problem.empty() || i >= row.fields.size()) continue;
-    const NumberText number = read_number(row.fields[i], table.decimal_comma);
+    const NumberText number = read_number(row.fields[i], marks);
     fits = number.reading != NumberReading::number || number.metres ||
            number.value <= kTrunkInMetres * (trunk.girth ? std::numbers::pi : 1.0);
   }
@@ -310,8 +355,9 @@ Result<Inventory> read(TreeTable& table, const std::string& name, const Inventor
     frame.crs_wkt = *wkt, frame.crs_assumed = false;
   }
 
+  const MarksOfColumns marks = look_at_marks(table, *columns);
   if (FoundColumn& trunk = (*columns)[InventoryField::trunk_diameter]; trunk.index >= 0 && !trunk.has_unit) {
-    const bool metres = fits_metres(table, trunk);
+    const bool metres = fits_metres(table, trunk, marks[static_cast<std::size_t>(trunk.index)]);
     trunk.metres = metres ? 1 : 0.01;
     out.notes.push_back(fmt::format("column {} names no unit; taken as {}",
                                     table.columns[static_cast<std::size_t>(trunk.index)], metres ? "m" : "cm"));
@@ -323,7 +369,7 @@ Result<Inventory> read(TreeTable& table, const std::string& name, const Inventor
       out.columns[field] = table.columns[static_cast<std::size_t>(i)];
   }
 
-  RowReader reader(table, *columns, by_columns, out);
+  RowReader reader(table, *columns, marks, by_columns, out);
   TableRow row;
   while (table.next(row)) reader.read(row);
   if (auto located = locate(out, frame, name); !located) return located.error();

@@ -65,10 +65,49 @@ std::optional<std::string> with_point(std::string_view text, bool decimal_comma)
   return out;
 }
 
+// One mark between one to three digits and exactly three, which may part thousands: the mark, else 0.
+char thousands_like_mark(std::string_view text) {
+  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
+  const auto at = text.find_first_of(".,");
+  if (at == std::string_view::npos || at < 1 || at > 3 || text[0] == '0') return 0;
+  std::size_t end = at + 1;
+  while (end < text.size() && digit(text[end])) ++end;
+  const bool digits = std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), digit);
+  const bool ends = end == text.size() || (text[end] != '.' && text[end] != ',' && text[end] != '\'');
+  return digits && end == at + 4 && ends ? text[at] : 0;
+}
+
 }  // namespace
 
-NumberText read_number(std::string_view text, bool decimal_comma) {
+void SeenMarks::look(std::string_view text) {
+  const auto mark = text.find_first_of(".,");
+  if (mark == std::string_view::npos || mark == 0 || !digit(text[mark - 1])) return;
+  const auto last = text.find_last_of(".,");
+  if (std::count(text.begin(), text.end(), text[last]) > 1) return;  // it parts thousands
+  if (last + 1 >= text.size() || !digit(text[last + 1])) return;
+  const bool clear = thousands_like_mark(text) == 0;
+  if (text[last] == ',') ++commas, clear_commas += clear;
+  if (text[last] == '.') clear_points += clear;
+}
+
+NumberMarks marks_of(const SeenMarks& column, const SeenMarks& all, bool decimal_comma) {
+  // A column's own numbers tell more than those of others.
+  const bool own_points = column.clear_points > 0 && column.clear_commas == 0;
+  const bool own_commas = column.clear_commas > 0 && column.clear_points == 0;
+  NumberMarks marks{decimal_comma, false, false};
+  marks.point_doubtful = !own_points && (decimal_comma ? all.commas > 0 : all.clear_commas > 0);
+  marks.comma_doubtful = !own_commas && (column.clear_points > 0 || (all.clear_points > 0 && all.clear_commas == 0));
+  return marks;
+}
+
+NumberText read_number(std::string_view text, const NumberMarks& marks) {
   NumberText out;
+  if (marks.point_doubtful || marks.comma_doubtful)
+    if (const char mark = thousands_like_mark(text);
+        (mark == '.' && marks.point_doubtful) || (mark == ',' && marks.comma_doubtful)) {
+      out.reading = NumberReading::doubtful;
+      return out;
+    }
   if (plain_number(text, out.value)) {
     out.reading = NumberReading::number;
     return out;
@@ -90,7 +129,7 @@ NumberText read_number(std::string_view text, bool decimal_comma) {
     folded.resize(end);
   }
   while (!folded.empty() && folded.back() == ' ') folded.pop_back();
-  const auto number = with_point(folded, decimal_comma);
+  const auto number = with_point(folded, marks.decimal_comma);
   if (number && !number->empty() && plain_number(*number, out.value)) out.reading = NumberReading::number;
   return out;
 }

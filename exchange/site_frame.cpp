@@ -83,7 +83,8 @@ OnSite unknown_system(std::vector<DVec2> points, const FrameOf& frame) {
   DVec2 corner = frame.site.south_west;
   if (frame.corner) {
     corner = *frame.corner * frame.metres_per_unit;
-  } else if (frame.size_m && corner != DVec2(0.0) &&
+  } else if (frame.size_m &&
+             (corner.x > 0 || corner.y > 0 || -corner.x > frame.size_m->x || -corner.y > frame.size_m->y) &&
              inside(points, DVec2(0.0), *frame.size_m) > inside(points, corner, *frame.size_m)) {
     corner = DVec2(0.0);
     out.notes.push_back(

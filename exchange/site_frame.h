@@ -5,7 +5,8 @@
 //           reprojected into the site's. Only the file's known: the site takes it over when it is projected and true to
 //           scale within kTrueScale, else a plane through the middle of the points; with a size the site is centred on the
 //           points, unless it has a corner already. The file's unknown: they are metres from the site's corner in map
-//           coordinates or on the site, whichever puts more of them onto it
+//           coordinates or on the site, whichever puts more of them onto it; in map coordinates when the map's origin lies
+//           on the site, as that of a plot measured from its own corner does
 // Decision  GeoJSON is in degrees by its standard. Coordinates that cannot be, or that span more than a site may, are
 //           metres of an unknown system
 // Errors    systems between which no way is known

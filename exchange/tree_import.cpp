@@ -26,8 +26,6 @@ using Known = std::span<const std::shared_ptr<const scene::Species>>;
 constexpr std::uint64_t kMostSynonymBytes = 16 << 20;
 constexpr float kMostScale = 2.0f;  // beyond it set_measured_size cuts
 constexpr std::size_t kListedTwins = 20;
-// Coordinates that start this near to 0, as a share of their extent, are a plot's own and keep their origin.
-constexpr double kOwnOrigin = 0.1;
 
 std::string shown(const std::string& name) { return name.empty() ? "(no name)" : name; }
 
@@ -37,30 +35,32 @@ struct Use {
   std::size_t trees = 0;
 };
 
-// One line for each name that did not mean just a species.
+// One line for each name that did not mean just a species, those of most trees first.
 std::vector<std::string> substitution_lines(const std::map<std::string, Use>& uses, Known species,
                                             const std::string& file) {
+  std::vector<std::pair<std::string, Use>> sorted(uses.begin(), uses.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second.trees > b.second.trees; });
   std::vector<std::string> out;
-  for (const auto& [name, use] : uses) {
+  for (const auto& [name, use] : sorted) {
     const std::string& as = species[use.match.species]->name;
+    const std::string drawn =
+        fmt::format("{} drawn as {}", use.trees == 1 ? "1 tree is" : fmt::format("{} trees are", use.trees), as);
     switch (use.match.how) {
       case scene::NameMatch::exact:
         continue;
       case scene::NameMatch::species:
-        out.push_back(fmt::format("{}: '{}' is planted as its species {}{}, {} trees", file, name, as,
-                                  use.match.width < 1 ? ", narrower" : "", use.trees));
+        out.push_back(
+            fmt::format("{}: '{}': {}, its species{}", file, name, drawn, use.match.width < 1 ? ", narrower" : ""));
         break;
       case scene::NameMatch::genus:
-        out.push_back(fmt::format("{}: '{}' is not a known species; {} trees are planted as {}, of its genus", file,
-                                  name, use.trees, as));
+        out.push_back(fmt::format("{}: '{}' is not a known species; {}, of its genus", file, name, drawn));
         break;
       case scene::NameMatch::leaf_type:
-        out.push_back(fmt::format("{}: '{}' is not a known species; {} trees are planted as {}, a conifer", file, name,
-                                  use.trees, as));
+        out.push_back(fmt::format("{}: '{}' is not a known species; {}, a conifer", file, name, drawn));
         break;
       case scene::NameMatch::fallback:
-        out.push_back(fmt::format("{}: '{}' is not a known species; {} trees are planted as {}", file, shown(name),
-                                  use.trees, as));
+        out.push_back(fmt::format("{}: '{}' is not a known species; {}", file, shown(name), drawn));
         break;
     }
   }
@@ -93,6 +93,9 @@ ImportedTrees planted(Inventory inventory, const std::string& file, const TreeIm
                       std::span<const StandingTree> others) {
   ImportedTrees out;
   out.place = std::move(inventory.place);
+  out.tally.left_out = static_cast<std::size_t>(
+      std::count_if(inventory.problems.begin(), inventory.problems.end(), [](const auto& p) { return !p.kept; }));
+  out.tally.trees = inventory.trees.size();
   for (const std::string& note : inventory.notes) out.warnings.push_back(fmt::format("{}: {}", file, note));
   std::vector<RowProblem> problems = std::move(inventory.problems);
 
@@ -117,6 +120,7 @@ ImportedTrees planted(Inventory inventory, const std::string& file, const TreeIm
     if (std::string note = set_size(tree, *species[match.species], row, match.width); !note.empty())
       problems.push_back({row.line, std::move(note), true});
     tree.status = row.status.value_or(import.status);
+    out.tally.to_remove += tree.status == scene::TreeStatus::to_remove;
     tree.clear_stem_m = row.clear_stem_m.value_or(0.0f);
     tree.inventory_name = row.name_kept.value_or(row.species);
     tree.inventory_id = row.id;
@@ -130,6 +134,7 @@ ImportedTrees planted(Inventory inventory, const std::string& file, const TreeIm
 
   std::stable_sort(problems.begin(), problems.end(),
                    [](const RowProblem& a, const RowProblem& b) { return a.line < b.line; });
+  for (std::string& line : substitution_lines(uses, species, file)) out.warnings.push_back(std::move(line));
   for (std::string& line : problem_lines(problems, file, inventory.features)) out.warnings.push_back(std::move(line));
 
   const Vec2 size = import.reading.size_m ? Vec2(*import.reading.size_m) : Vec2(1e9f);
@@ -151,7 +156,7 @@ ImportedTrees planted(Inventory inventory, const std::string& file, const TreeIm
   if (twins > kListedTwins)
     out.warnings.push_back(
         fmt::format("{}: and {} more trees at places of others, moved likewise", file, twins - kListedTwins));
-  for (std::string& line : substitution_lines(uses, species, file)) out.warnings.push_back(std::move(line));
+  out.tally.moved = twins;
 
   out.standing.assign(standing.begin() + static_cast<std::ptrdiff_t>(others.size()), standing.end());
   for (std::size_t i = 0; i < out.trees.size(); ++i) out.trees[i].at = out.standing[i].at;
@@ -206,13 +211,44 @@ Result<scene::Synonyms> read_synonyms(const std::filesystem::path& file, Known k
   return out;
 }
 
-std::pair<DVec2, DVec2> site_around(std::span<const InventoryTree> trees) {
+std::string words(const ImportTally& tally, bool features) {
+  const auto rows = [&](std::size_t n) {
+    return fmt::format("{} {}{}", n, features ? "feature" : "row", n == 1 ? "" : "s");
+  };
+  std::string out = fmt::format("{} tree{}", tally.trees, tally.trees == 1 ? "" : "s");
+  if (tally.left_out > 0) out += fmt::format(" of {}; {} left out", rows(tally.trees + tally.left_out), tally.left_out);
+  if (tally.moved > 0) out += fmt::format("; {} moved aside from another's place", tally.moved);
+  if (tally.to_remove > 0) out += fmt::format("; {} to be removed, so not grown", tally.to_remove);
+  return out;
+}
+
+std::pair<DVec2, DVec2> site_around(std::span<const InventoryTree> trees, Known species, std::size_t fallback,
+                                    const scene::Synonyms* synonyms) {
+  std::map<std::string, scene::SpeciesMatch> matches;
   DVec2 low(INFINITY), high(-INFINITY);
-  for (const InventoryTree& tree : trees) low = glm::min(low, tree.plan), high = glm::max(high, tree.plan);
-  const DVec2 extent = high - low;
-  DVec2 corner = glm::floor(low);
-  if (low.x >= 0 && low.y >= 0 && low.x <= kOwnOrigin * extent.x && low.y <= kOwnOrigin * extent.y) corner = DVec2(0.0);
+  for (const InventoryTree& row : trees) {
+    const auto [match, fresh] = matches.try_emplace(row.species);
+    if (fresh) match->second = scene::match_species(row.species, species, fallback, synonyms);
+    const scene::Species& kind = *species[match->second.species];
+    scene::Tree tree;
+    tree.scale_width = kind.planting.scale_max;
+    set_size(tree, kind, row, match->second.width);
+    const DVec2 crown(0.5 * static_cast<double>(tree.scale_width * kind.shape.crown_width_m));
+    low = glm::min(low, row.plan - crown), high = glm::max(high, row.plan + crown);
+  }
+  const DVec2 corner = glm::floor(low);
   return {corner, glm::max(glm::ceil(high - corner), DVec2(1.0))};
+}
+
+Result<std::vector<std::shared_ptr<const scene::Species>>> species_to_name(
+    std::vector<std::shared_ptr<const scene::Species>> own) {
+  for (const std::string& name : scene::builtin_species_names()) {
+    if (std::any_of(own.begin(), own.end(), [&](const auto& s) { return s->name == name; })) continue;
+    auto builtin = scene::builtin_species(name);
+    if (!builtin) return builtin.error();
+    own.push_back(std::make_shared<const scene::Species>(std::move(*builtin)));
+  }
+  return own;
 }
 
 Result<ImportedTrees> read_trees(const std::filesystem::path& file, const TreeImport& import, std::uint64_t seed,
@@ -227,18 +263,14 @@ Result<ImportedTrees> read_trees(const std::filesystem::path& file, const TreeIm
 
 Result<ImportedDocument> import_trees(const scene::Document& before, const std::filesystem::path& file,
                                       TreeImport import) {
-  ImportedDocument out{before, 0, {}};
+  ImportedDocument out{before, {}, {}};
   scene::Document& document = out.document;
 
   // All species that a name may mean: the document's own first.
-  std::vector<std::shared_ptr<const scene::Species>> species = document.species.all();
-  const std::size_t own = species.size();
-  for (const std::string& name : scene::builtin_species_names()) {
-    if (std::any_of(species.begin(), species.end(), [&](const auto& s) { return s->name == name; })) continue;
-    auto builtin = scene::builtin_species(name);
-    if (!builtin) return builtin.error();
-    species.push_back(std::make_shared<const scene::Species>(std::move(*builtin)));
-  }
+  const std::size_t own = document.species.size();
+  auto known = species_to_name(document.species.all());
+  if (!known) return known.error();
+  const std::vector<std::shared_ptr<const scene::Species>> species = *std::move(known);
   const auto fallback =
       std::find_if(species.begin(), species.end(), [&](const auto& s) { return s->name == import.fallback; });
   if (fallback == species.end()) return Error{fmt::format("'{}' is not a known species", import.fallback)};
@@ -257,7 +289,8 @@ Result<ImportedDocument> import_trees(const scene::Document& before, const std::
                      : fmt::format("{}: no row has a usable position on the site: {}", file.string(), lines.front())};
   }
   if (!document.terrain) {
-    const auto [corner, size] = site_around(inventory->trees);
+    const auto [corner, size] =
+        site_around(inventory->trees, species, static_cast<std::size_t>(fallback - species.begin()), &*synonyms);
     auto lattice = terrain::make_lattice(Vec2(size));
     if (!lattice) return Error{fmt::format("{}: {}", file.string(), lattice.error().message)};
     terrain::Terrain ground;
@@ -302,7 +335,7 @@ Result<ImportedDocument> import_trees(const scene::Document& before, const std::
     tree.species = index[tree.species];
     tree.id = document.next_tree_id++;
   }
-  out.trees = trees.trees.size();
+  out.tally = trees.tally;
   document.trees = std::make_shared<const scene::Trees>(document.trees ? document.trees->edited(std::move(trees.trees))
                                                                        : scene::Trees(std::move(trees.trees)));
   return out;

@@ -37,7 +37,18 @@ struct TreeImport {
 Result<scene::Synonyms> read_synonyms(const std::filesystem::path& file,
                                       std::span<const std::shared_ptr<const scene::Species>> known);
 
+/// What became of the rows of a file.
+struct ImportTally {
+  std::size_t trees = 0;      ///< that were added, with those that are moved or to be removed
+  std::size_t left_out = 0;   ///< rows without a usable place
+  std::size_t moved = 0;      ///< from a place where another tree stands
+  std::size_t to_remove = 0;  ///< not grown
+};
+/// "18 trees of 20 rows; 2 left out; 1 moved aside from another's place".
+std::string words(const ImportTally& tally, bool features);
+
 struct ImportedTrees {
+  ImportTally tally;
   std::vector<scene::Tree> trees;                    ///< without ids
   std::vector<distribution::StandingTree> standing;  ///< the same trees
   std::optional<scene::Georeference> place;          ///< that the site gets, when it had none
@@ -50,13 +61,18 @@ Result<ImportedTrees> read_trees(const std::filesystem::path& file, const TreeIm
                                  std::span<const std::shared_ptr<const scene::Species>> species, std::size_t fallback,
                                  std::span<const distribution::StandingTree> others = {});
 
-/// The site of whole metres around trees whose plan counts from anywhere: its corner there, and its size. Coordinates
-/// that begin near 0 are a plot's own and keep their origin.
-std::pair<DVec2, DVec2> site_around(std::span<const InventoryTree> trees);
+/// These and the built-in species that they lack: all that a name may mean.
+Result<std::vector<std::shared_ptr<const scene::Species>>> species_to_name(
+    std::vector<std::shared_ptr<const scene::Species>> own);
+
+/// The site of whole metres around the crowns of trees whose plan counts from anywhere: its corner there, and its size.
+std::pair<DVec2, DVec2> site_around(std::span<const InventoryTree> trees,
+                                    std::span<const std::shared_ptr<const scene::Species>> species,
+                                    std::size_t fallback, const scene::Synonyms* synonyms = nullptr);
 
 struct ImportedDocument {
   scene::Document document;
-  std::size_t trees = 0;  ///< that were added
+  ImportTally tally;
   std::vector<std::string> warnings;
 };
 

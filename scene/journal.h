@@ -26,7 +26,8 @@ namespace bosquet::scene {
 
 class Journal {
  public:
-  /// A recovery file of its own for this session. `project` is empty for a document that was never saved.
+  /// A recovery file of its own for this session. `project`, or the recipe that was opened, is empty for a document that was
+  /// never saved.
   static Result<std::unique_ptr<Journal>> start(Document document, const std::filesystem::path& project,
                                                 const std::filesystem::path& folder = recovery_folder());
   /// Waits for what was recorded; removes the file when nothing in it is unsaved.

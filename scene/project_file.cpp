@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 // Ending of the name that a file has until it is whole.
 constexpr std::string_view kForerunner = ".part";
+// What a project says of the file that it was made from, until it is edited.
+constexpr const char* kMadeFrom = "made_from";
 
 // Which file a path names now.
 struct FileIdentity {
@@ -74,7 +76,8 @@ void remove_forerunners(const fs::path& path) {
 }
 
 // A new file at `path`, whole or not at all; `store` knows then what is in it.
-Result<void> write_new(const fs::path& path, const Document& document, ProjectStore& store) {
+Result<void> write_new(const fs::path& path, const Document& document, const std::string& made_from,
+                       ProjectStore& store) {
   std::error_code ec;
   if (fs::is_directory(path, ec)) return Error{fmt::format("{}: is a folder, not a file", path.string())};
   remove_forerunners(path);
@@ -92,7 +95,7 @@ Result<void> write_new(const fs::path& path, const Document& document, ProjectSt
     // Nothing to roll back to: without its commit the file goes.
     if (auto set = database->run("PRAGMA journal_mode = OFF; PRAGMA synchronous = FULL"); !set) return set;
     if (auto made = ProjectStore::create_tables(*database); !made) return made;
-    return store.write(*database, document, {});
+    return store.write(*database, document, made_from.empty() ? ProjectMeta() : ProjectMeta{{kMadeFrom, made_from}});
   }();
   if (done) {
     settle_journal(path);
@@ -169,6 +172,7 @@ struct ProjectFile::Open {
   ProjectStore store;
   Document document;
   ProjectState state;
+  std::string made_from;
   std::optional<FileIdentity> file;
   std::int64_t version = 0;  ///< changes when another connection commits
   bool save_failed = false;  ///< another connection may have undone what was left of it
@@ -197,6 +201,7 @@ ProjectFile::~ProjectFile() = default;
 const fs::path& ProjectFile::path() const { return open_->path; }
 const Document& ProjectFile::document() const { return open_->document; }
 const ProjectState& ProjectFile::state() const { return open_->state; }
+const std::string& ProjectFile::made_from() const { return open_->made_from; }
 
 Result<ProjectFile> ProjectFile::open(const fs::path& path, const ProjectOptions& options) {
   std::error_code ec;
@@ -247,6 +252,7 @@ Result<ProjectFile> ProjectFile::open(const fs::path& path, const ProjectOptions
   auto stored = open->store.read(*database);
   if (!stored) return stored.error();
   open->document = std::move(stored->document);
+  if (!stored->trees_edited) open->made_from = stored->meta[kMadeFrom];
   for (std::string& problem : stored->problems) state.missing.push_back(std::move(problem));
   state.damaged = state.damaged || !state.missing.empty();
   state.edited_elsewhere = stored->trees_edited && !state.damaged;
@@ -266,10 +272,9 @@ Result<ProjectFile> ProjectFile::open(const fs::path& path, const ProjectOptions
   return ProjectFile(std::move(open));
 }
 
-Result<ProjectFile> ProjectFile::create(const fs::path& path, const Document& document) {
-  auto open = std::make_unique<Open>();
-  ProjectFile file(std::move(open));
-  if (auto done = file.save_as(document, path); !done) return done.error();
+Result<ProjectFile> ProjectFile::create(const fs::path& path, const Document& document, const std::string& made_from) {
+  ProjectFile file(std::make_unique<Open>());
+  if (auto done = file.write_as(document, path, made_from); !done) return done.error();
   return file;
 }
 
@@ -292,13 +297,20 @@ Result<void> ProjectFile::save(const Document& document, bool over_edits) {
     return Error{
         fmt::format("{}: was changed by another program; save over it, or under another name", open_->path.string())};
   if (!open_->database || gone || changed) return save_as(document, open_->path);
-  auto done = open_->store.write(*open_->database, document, {});
+  // What is saved from now on is nobody's product.
+  const ProjectMeta meta = open_->made_from.empty() ? ProjectMeta() : ProjectMeta{{kMadeFrom, ""}};
+  auto done = open_->store.write(*open_->database, document, meta);
+  if (done) open_->made_from.clear();
   open_->save_failed = !done;
   if (done) open_->document = document;
   return done;
 }
 
 Result<void> ProjectFile::save_as(const Document& document, const fs::path& path) {
+  return write_as(document, path, {});
+}
+
+Result<void> ProjectFile::write_as(const Document& document, const fs::path& path, const std::string& made_from) {
   const fs::path target = resolved(path);
   const bool same = open_->lock && target == open_->path;
   std::optional<ProjectLock> lock;
@@ -312,13 +324,14 @@ Result<void> ProjectFile::save_as(const Document& document, const fs::path& path
               : fmt::format("{}: cannot be written; its folder is missing or may not be written", target.string())};
   }
   ProjectStore store;
-  if (auto done = write_new(target, document, store); !done) return done;
+  if (auto done = write_new(target, document, made_from, store); !done) return done;
   if (!same) open_->lock = std::move(lock);
   open_->database.reset();
   open_->path = target;
   open_->store = std::move(store);
   open_->document = document;
   open_->state = {};
+  open_->made_from = made_from;
   return open_->connect();
 }
 
@@ -327,13 +340,13 @@ Result<ReadProject> read_project(const fs::path& path) {
   options.to_write = false;
   auto file = ProjectFile::open(path, options);
   if (!file) return file.error();
-  ReadProject read{file->document(), file->state()};
+  ReadProject read{file->document(), file->state(), file->made_from()};
   read.state.read_only.clear();
   return read;
 }
 
-Result<std::uint64_t> write_project(const Document& document, const fs::path& path) {
-  auto file = ProjectFile::create(path, document);
+Result<std::uint64_t> write_project(const Document& document, const fs::path& path, const std::string& made_from) {
+  auto file = ProjectFile::create(path, document, made_from);
   if (!file) return file.error();
   std::error_code ec;
   return fs::file_size(file->path(), ec);

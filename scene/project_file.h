@@ -54,7 +54,8 @@ class ProjectFile {
  public:
   static Result<ProjectFile> open(const std::filesystem::path& path, const ProjectOptions& options = {});
   /// Writes a new file, or replaces one, and holds it.
-  static Result<ProjectFile> create(const std::filesystem::path& path, const Document& document);
+  static Result<ProjectFile> create(const std::filesystem::path& path, const Document& document,
+                                    const std::string& made_from = {});
 
   ProjectFile(ProjectFile&&) noexcept;
   ProjectFile& operator=(ProjectFile&&) noexcept;
@@ -64,6 +65,8 @@ class ProjectFile {
   /// The document as it was opened or last saved.
   const Document& document() const;
   const ProjectState& state() const;
+  /// What write_project() was told that it was made from; empty once it was saved or edited since.
+  const std::string& made_from() const;
   /// Whether another program has changed or replaced the file since it was opened or last saved.
   bool changed_meanwhile() const;
 
@@ -75,6 +78,7 @@ class ProjectFile {
  private:
   struct Open;
   explicit ProjectFile(std::unique_ptr<Open> open);
+  Result<void> write_as(const Document& document, const std::filesystem::path& path, const std::string& made_from);
   std::unique_ptr<Open> open_;
 };
 
@@ -82,10 +86,13 @@ class ProjectFile {
 struct ReadProject {
   Document document;
   ProjectState state;
+  std::string made_from;  ///< as ProjectFile says
 };
 Result<ReadProject> read_project(const std::filesystem::path& path);
 
-/// A project of its own, written whole; returns its bytes.
-Result<std::uint64_t> write_project(const Document& document, const std::filesystem::path& path);
+/// A project of its own, written whole; returns its bytes. `made_from` names, for whoever makes it anew, what it is
+/// a product of as long as nobody edits it.
+Result<std::uint64_t> write_project(const Document& document, const std::filesystem::path& path,
+                                    const std::string& made_from = {});
 
 }  // namespace bosquet::scene

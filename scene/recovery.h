@@ -22,7 +22,7 @@ std::filesystem::path recovery_folder();
 struct Recovery {
   std::string name;  ///< by which `bosquet recover` knows it
   std::filesystem::path file;
-  std::filesystem::path project;  ///< that was open; empty when it was never saved
+  std::filesystem::path project;  ///< or recipe that was open; empty when it was never saved
   std::int64_t time = 0;          ///< of the last edit, seconds since 1970
   std::uint64_t edits = 0;        ///< since the last save
   bool in_use = false;            ///< by a session that is still there

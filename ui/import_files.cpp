@@ -57,7 +57,7 @@ Result<scene::Edited> import_trees(const scene::Document& document, const std::f
   if (!imported) return imported.error();
   scene::Edited edit;
   edit.document = std::move(imported->document);
-  edit.name = "Import " + scene::trees_in_words(imported->trees);
+  edit.name = "Import " + scene::trees_in_words(imported->tally.trees);
   edit.notes = std::move(imported->warnings);
   edit.displaced = newly_displaced(document, edit.document);
   return edit;

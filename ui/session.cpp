@@ -17,7 +17,7 @@ Session::Session(Options options) : options_(std::move(options)), tool_(make_too
 Session::~Session() = default;
 
 // Another document takes the place of the present one.
-void Session::begin(scene::Document document, std::string name) {
+void Session::begin(scene::Document document, std::string name, const std::filesystem::path& recipe) {
   journal_.reset();
   history_ = std::make_unique<scene::History>(document);
   planting_ = {};
@@ -30,7 +30,7 @@ void Session::begin(scene::Document document, std::string name) {
   if (options_.journal) {
     const std::filesystem::path folder =
         options_.recovery_folder.empty() ? scene::recovery_folder() : options_.recovery_folder;
-    auto journal = scene::Journal::start(document, path_, folder);
+    auto journal = scene::Journal::start(document, recipe.empty() ? path_ : recipe, folder);
     if (journal)
       journal_ = std::move(*journal);
     else
@@ -122,7 +122,7 @@ Result<void> Session::open(const std::filesystem::path& file) {
   notes = std::move(opened->notes);
   project_.reset();
   path_.clear();
-  begin(std::move(opened->document), file.stem().string());
+  begin(std::move(opened->document), file.stem().string(), file);
   return {};
 }
 

@@ -94,7 +94,7 @@ class Session {
 
  private:
   void changed();
-  void begin(scene::Document document, std::string name);
+  void begin(scene::Document document, std::string name, const std::filesystem::path& recipe = {});
   void use(ToolAnswer answer);
 
   Options options_;

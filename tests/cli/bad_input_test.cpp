@@ -155,5 +155,25 @@ TEST_F(BadInput, NumbersAndWordsOfOptionsAreToldWithWhatIsAllowed) {
   EXPECT_EQ(file_text(folder_ / "extra.csv"), "precious");
 }
 
+TEST_F(BadInput, AMistypedWordIsToldAloneWithTheNearestRightOne) {
+  const auto says = [&](const std::string& line, const std::string& what) {
+    const Ran ran = bosquet(line);
+    EXPECT_EQ(ran.status, 1) << line;
+    EXPECT_NE(ran.err.find(what), std::string::npos) << line << ": " << ran.err;
+  };
+  says("mkae x.toml -o x.glb", "there is no command 'mkae'; did you mean 'make'?");
+  says("make x.toml --yaer 5 -o x.glb", "'make' has no option --yaer; did you mean '--year'?");
+  says("make x.toml --otput x.glb", "'make' has no option --otput; did you mean '--output'?");
+  says("species gallry -o x.png", "'species' has no command 'gallry'; did you mean 'gallery'?");
+  says("species", "'species' needs one of: list, show, calibrate, gallery");
+  says("make my park.toml -o x.glb", "'park.toml' is a word too many for 'make'; a name with spaces needs quotes");
+  says("park.toml", "bosquet ui park.toml");
+  says("make x.toml -o x.glb --detail 0,8", "0.25 to 4; decimals stand behind a point: 0.8");
+  says("make x.toml -o x.glb --max-triangles 1000000001", "0 to 1000000000");
+  says("make x.toml -o .", ".: is a folder; name a file in it");
+  says("make x.toml -o park", "park: has no ending, which tells what to write");
+  says("make x.toml -o park.glb --tree 1", "needs an output that it goes into, -o NAME.tree.json");
+}
+
 }  // namespace
 }  // namespace bosquet

@@ -214,6 +214,25 @@ TEST_F(Commands, ImportMakesARecipeFromAnInventoryAndItsGround) {
   EXPECT_EQ(file_text(folder_ / "park.toml"), before);
 }
 
+TEST_F(Commands, AnImportTellsWhatBecameOfEveryRowAndAQuotedWayOn) {
+  std::filesystem::create_directory(folder_ / "mein park");
+  write("mein park/B\xc3\xa4ume.csv",
+        "Rechtswert;Hochwert;Baumart;H\xc3\xb6he;Kronendurchmesser;Ma\xc3\x9fnahme\n5;5;Stieleiche;12,5;8;erhalten\n"
+        "5;5;Bergahorn;9,5;6;erhalten\n20;5;Bergahorn;1.234;6;F\xc3\xa4llung\nwest;5;Stieleiche;9;6;erhalten\n");
+  const Ran made = bosquet("import 'mein park/park.toml' --trees 'mein park/B\xc3\xa4ume.csv'");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.out.find("3 trees of 4 rows; 1 left out; 1 moved aside from another's place; 1 to be removed"),
+            std::string::npos)
+      << made.out;
+  EXPECT_NE(made.out.find("bosquet make 'mein park/park.toml' -o OUT.glb"), std::string::npos) << made.out;
+  EXPECT_NE(made.err.find("'Bergahorn' is not a known species; 2 trees are drawn as norway_maple"), std::string::npos);
+  EXPECT_NE(made.err.find("ume.csv:4: H\xc3\xb6he is \"1.234\", which may be 1234 or 1,234"), std::string::npos)
+      << made.err;
+  const Ran grown = bosquet("make 'mein park/park.toml' -o x.csv");
+  EXPECT_NE(grown.out.find("2 trees, "), std::string::npos) << grown.out;
+  EXPECT_NE(grown.out.find("1 tree more to be removed, so not grown"), std::string::npos) << grown.out;
+}
+
 TEST_F(Commands, SpeciesAreListedAndShown) {
   const Ran list = bosquet("species list");
   for (const char* name : {"english_oak", "silver_birch", "norway_spruce", "weeping_willow"})

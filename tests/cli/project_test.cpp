@@ -84,6 +84,37 @@ TEST_F(ProjectCommandTest, AProjectIsNotWrittenOverByWhatIsMadeOfIt) {
   EXPECT_EQ(file_text(folder_ / "a.bosquet"), before);
 }
 
+TEST_F(ProjectCommandTest, AProjectOfAnotherDocumentAndEditedOnesAreReplacedOnlyWhenAskedTo) {
+  write_recipe();
+  shell("mkdir sub; sed 's/seed = 9/seed = 77/' a.toml > sub/other.toml");
+  ASSERT_EQ(bosquet("make a.toml -o saved.bosquet --quiet").status, 0);
+  const auto refused = [&](const std::string& line, const std::string& why) {
+    const std::string before = file_text(folder_ / "saved.bosquet");
+    const Ran ran = bosquet(line);
+    EXPECT_EQ(ran.status, 1) << line;
+    EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("--replace"), std::string::npos) << ran.err;
+    EXPECT_EQ(file_text(folder_ / "saved.bosquet"), before);
+  };
+  // The same recipe makes it anew, with another seed too; another recipe does not.
+  EXPECT_EQ(bosquet("make a.toml -o saved.bosquet --quiet --seed 9").status, 0);
+  refused("make sub/other.toml -o saved.bosquet -o x.csv", "saved.bosquet: is a project of 7 trees made from a.toml");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.csv")) << "it is refused before any work";
+  EXPECT_EQ(bosquet("make sub/other.toml -o saved.bosquet --quiet --replace").status, 0);
+  // Once it is edited, its own recipe must ask too.
+  {
+    auto file = scene::ProjectFile::open(folder_ / "saved.bosquet");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->made_from(), "sub/other.toml");
+    scene::Document document = file->document();
+    document.seed = 5;
+    ASSERT_TRUE(file->save(document));
+  }
+  refused("make sub/other.toml -o saved.bosquet", "edited or saved by hand");
+  // Recipes are people's work too.
+  refused("export saved.bosquet -o a.toml", "a.toml: is a recipe");
+}
+
 TEST_F(ProjectCommandTest, ADamagedProjectIsGrownAsFarAsItGoesWithAWarning) {
   write_recipe();
   ASSERT_EQ(bosquet("make a.toml -o a.bosquet --quiet").status, 0);
@@ -185,10 +216,19 @@ TEST_F(ProjectCommandTest, WhatASessionLeftIsListedAndSaved) {
   const std::string name = list.out.substr(0, list.out.find(' '));
   EXPECT_EQ(shell(with + "recover nothing -o b.bosquet").status, 1);
   EXPECT_EQ(shell(with + "recover " + name).status, 1) << "where to?";
+  EXPECT_EQ(shell(with + "recover " + name + " -o a.bosquet").status, 1) << "the saved one would be lost";
   const Ran saved = shell(with + "recover " + name + " -o b.bosquet");
   ASSERT_EQ(saved.status, 0) << saved.err;
   EXPECT_EQ(scene::read_project(folder_ / "b.bosquet")->document.seed, 1234u);
   EXPECT_NE(shell(with + "recover").out.find("nothing to recover"), std::string::npos);
+  {
+    auto journal = scene::Journal::start(document, folder_ / "a.toml", state);
+    ASSERT_TRUE(journal);
+    (*journal)->record(document, 1);
+  }
+  const Ran of_recipe = shell(with + "recover list");
+  EXPECT_NE(of_recipe.out.find("1 edit, of the recipe " + (folder_ / "a.toml").string()), std::string::npos)
+      << of_recipe.out;
 }
 
 }  // namespace

@@ -81,6 +81,10 @@ TEST(FileOutput, AMissingFolderAndAFolderAsTargetAreTheUsersMistakes) {
   EXPECT_EQ(nowhere.error().kind, ErrorKind::input);
   EXPECT_NE(nowhere.error().message.find("there is no folder " + (folder / "no/such").string()), std::string::npos);
 
+  const auto no_place = write_file("/proc/bosquet.txt", "x");  // a folder that is there and takes no files
+  ASSERT_FALSE(no_place);
+  EXPECT_EQ(no_place.error().message.find("there is no folder"), std::string::npos) << no_place.error().message;
+
   const auto onto_folder = write_file(folder.path(), "x");
   ASSERT_FALSE(onto_folder);
   EXPECT_EQ(onto_folder.error().kind, ErrorKind::input);

@@ -308,9 +308,36 @@ TEST(Inventory, AClearStemAsHighAsItsTreeAndAnUnknownStatusAreReported) {
   for (const RowProblem& problem : inventory.problems) EXPECT_TRUE(problem.line == 2 && problem.kept);
 }
 
+TEST(Inventory, NumbersThatMayHaveThousandsAreNotGuessedAt) {
+  const auto heights = [](const std::string& text) {
+    const Inventory read = *parse_inventory(text, "t.csv");
+    std::vector<float> out;
+    for (const InventoryTree& tree : read.trees) out.push_back(tree.height_m.value_or(0));
+    for (const RowProblem& p : read.problems) EXPECT_TRUE(p.reason.find("which may be") != std::string::npos);
+    return std::pair(out, read.problems.size());
+  };
+  using Heights = std::vector<float>;
+  // Decimal commas: 1.234 may be a thousand.
+  EXPECT_EQ(heights("x;y;height\n1;1;12,5\n2;2;1.234\n3;3;8,25\n"), std::pair(Heights({12.5f, 0, 8.25f}), 1ul));
+  EXPECT_EQ(heights("x,y,height\n1,1,\"12,5\"\n2,2,1.234\n"), std::pair(Heights({12.5f, 0}), 1ul));
+  // Decimal points: 1,234 may be.
+  EXPECT_EQ(heights("x;y;height\n1;1;12.5\n2;2;1,234\n"), std::pair(Heights({12.5f, 0}), 1ul));
+  // Numbers that cannot have thousands tell what their column's marks mean.
+  EXPECT_EQ(heights("x;y;height\n1;1;1,5\n2.1255;2;9,125\n4.250;4;10\n"), std::pair(Heights({1.5f, 9.125f, 10}), 0ul));
+  EXPECT_EQ(heights("x;y;height\n1;1;1.234\n2;2;3.5\n"), std::pair(Heights({1.234f, 3.5f}), 0ul));
+  EXPECT_EQ(heights("x;y;height\n1;1;0.750\n2;2;3,5\n"), std::pair(Heights({0.75f, 3.5f}), 0ul));
+  const Inventory told = *parse_inventory("x;y;h\xc3\xb6he\n10,5;1;12,5\n4.321;2;1.234\n3,5;2;1.234\n", "t.csv");
+  ASSERT_EQ(told.problems.size(), 2u);
+  EXPECT_EQ(told.problems[0].line, 3);
+  EXPECT_FALSE(told.problems[0].kept) << "a place cannot be guessed";
+  EXPECT_EQ(told.problems[1].line, 4);
+  EXPECT_EQ(told.problems[1].reason,
+            "h\xc3\xb6he is \"1.234\", which may be 1234 or 1,234: the file's decimals stand behind a comma");
+}
+
 TEST(NumberText, MarksOfDecimalsAndThousandsAreToldApart) {
   const auto value = [](std::string_view text, bool comma = false) {
-    const NumberText number = read_number(text, comma);
+    const NumberText number = read_number(text, {comma, false, false});
     return number.reading == NumberReading::number ? number.value : std::nan("");
   };
   EXPECT_EQ(value("12.5"), 12.5);
@@ -332,7 +359,7 @@ TEST(NumberText, MarksOfDecimalsAndThousandsAreToldApart) {
   for (const char* text : {"1.2.3", "1,23,456", "12 34", "abc", "1e999", "nan m", "0x10", "--5", ",", ".", "5 6 7"})
     EXPECT_TRUE(std::isnan(value(text))) << text;
   for (const char* text : {"", "NA", "n/a", "?", "-", "unbekannt"})
-    EXPECT_EQ(read_number(text, false).reading, NumberReading::missing) << text;
+    EXPECT_EQ(read_number(text, {}).reading, NumberReading::missing) << text;
 }
 
 TEST(Csv, EscapedQuotesAndEmptyFieldsComeOutAsWritten) {

@@ -33,10 +33,19 @@ TEST(TreeImport, AnEmptyDocumentBecomesASiteAroundItsTrees) {
   const ScratchFolder folder;
   spit(folder / "t.csv", "x,y,species,height_m\n512400.5,5400700,oak,12\n512460,5400730.25,Waldkiefer,9\n");
   const ImportedDocument made = imported({}, folder / "t.csv");
-  EXPECT_EQ(made.trees, 2u);
-  EXPECT_EQ(made.document.place.south_west, DVec2(512400, 5400700));
-  EXPECT_EQ(made.document.terrain->size_m(), Vec2(60, 31));
-  EXPECT_EQ((*made.document.trees)[1].at, Vec2(60, 30.25));
+  EXPECT_EQ(made.tally.trees, 2u);
+  const DVec2 corner = made.document.place.south_west;
+  EXPECT_EQ(corner, glm::floor(corner)) << "whole metres";
+  EXPECT_EQ((*made.document.trees)[1].at, Vec2(DVec2(512460, 5400730.25) - corner));
+  const Vec2 size = made.document.terrain->size_m();
+  Box2 crowns;
+  for (const scene::Tree& tree : *made.document.trees) {
+    const Vec2 radius(0.5f * tree.scale_width * made.document.species_of(tree).shape.crown_width_m);
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(tree.at - radius, Vec2(0.0f)))) << "a crown is cut by the edge";
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(tree.at + radius, size)));
+    crowns.add(tree.at - radius), crowns.add(tree.at + radius);
+  }
+  EXPECT_TRUE(glm::all(glm::lessThanEqual(size, crowns.size() + 2.0f))) << "no wider than they need";
   EXPECT_EQ(made.document.species.size(), 2u);  // only those that stand there
   EXPECT_EQ(kind(made.document, 0), "english_oak");
   EXPECT_EQ(kind(made.document, 1), "scots_pine");
@@ -49,8 +58,10 @@ TEST(TreeImport, ASecondFileJoinsTheFirstWithoutTouchingItsTrees) {
   spit(folder / "b.csv", "x,y,species\n20,20,oak\n10,10,lime\n70,10,lime\n");
   const ImportedDocument first = imported({}, folder / "a.csv"), second = imported(first.document, folder / "b.csv");
   ASSERT_EQ(second.document.trees->size(), 5u);  // (70, 10) is off the site
-  EXPECT_TRUE(warns(second.warnings, "b.csv:4: position 70, 10 lies outside"));
-  EXPECT_TRUE(warns(second.warnings, "b.csv:3: same place as a tree that stands there; moved from (10.00, 10.00)"));
+  EXPECT_TRUE(warns(second.warnings, "b.csv:4: position 80, 20 lies outside"));
+  EXPECT_EQ(first.document.place.south_west, DVec2(-10)) << "room for the crown of the oak at 0, 0";
+  EXPECT_EQ(words(second.tally, false), "2 trees of 3 rows; 1 left out; 1 moved aside from another's place");
+  EXPECT_TRUE(warns(second.warnings, "b.csv:3: same place as a tree that stands there; moved from (20.00, 20.00)"));
   std::set<std::uint64_t> keys;
   for (std::size_t i = 0; i < 5; ++i) {
     const scene::Tree& tree = (*second.document.trees)[i];
@@ -109,14 +120,13 @@ TEST(TreeImport, EverySubstitutionIsNamedOnceWithItsCount) {
        "x,y,species\n1,1,Acer platanoides 'Globosum'\n2,2,Acer rubrum\n3,3,Acer rubrum\n4,4,Abies "
        "alba\n5,5,\n6,6,Ginkgo\n");
   const ImportedDocument made = imported({}, folder / "t.csv");
-  EXPECT_EQ(made.trees, 6u);
-  EXPECT_TRUE(warns(made.warnings, "'Acer platanoides 'Globosum'' is planted as its species norway_maple"));
+  EXPECT_EQ(made.tally.trees, 6u);
+  EXPECT_TRUE(warns(made.warnings, "'Acer platanoides 'Globosum'': 1 tree is drawn as norway_maple, its species"));
   EXPECT_TRUE(
-      warns(made.warnings, "'Acer rubrum' is not a known species; 2 trees are planted as norway_maple, of its genus"));
-  EXPECT_TRUE(
-      warns(made.warnings, "'Abies alba' is not a known species; 1 trees are planted as norway_spruce, a conifer"));
-  EXPECT_TRUE(warns(made.warnings, "'(no name)' is not a known species; 1 trees are planted as english_oak"));
-  EXPECT_TRUE(warns(made.warnings, "'Ginkgo' is not a known species; 1 trees are planted as english_oak"));
+      warns(made.warnings, "'Acer rubrum' is not a known species; 2 trees are drawn as norway_maple, of its genus"));
+  EXPECT_TRUE(warns(made.warnings, "'Abies alba' is not a known species; 1 tree is drawn as norway_spruce, a conifer"));
+  EXPECT_TRUE(warns(made.warnings, "'(no name)' is not a known species; 1 tree is drawn as english_oak"));
+  EXPECT_TRUE(warns(made.warnings, "'Ginkgo' is not a known species; 1 tree is drawn as english_oak"));
   EXPECT_EQ((*made.document.trees)[1].inventory_name, "Acer rubrum");
 }
 
