@@ -203,8 +203,12 @@ Result<void> check_targets(const Options& options) {
   return options.report.empty() ? Result<void>() : check_folder(options.report);
 }
 
+bool some_output(const Options& options, const auto& fits) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), fits);
+}
+
 bool grows_meshes(const Options& options) {
-  return std::any_of(options.outputs.begin(), options.outputs.end(), [](const path& p) { return format_of(p)->model; });
+  return some_output(options, [](const path& p) { return format_of(p)->model; });
 }
 
 Result<void> make(const Options& options, Report& report, Progress& progress) {
@@ -219,15 +223,21 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     if (!view) return view.error();
     built.model = std::move(*view);
   } else if (grows_meshes(options)) {
+    // Meshes take most of the memory: what no output asks for any more makes room.
+    if (!some_output(options, [](const path& p) { return format_of(p)->write == write_voxels; }))
+      grown->space = {}, grown->light = {};
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
     model.levels = options.lod != exchange::LodFiles::none;
+    if (!some_output(options, [](const path& p) { return !format_of(p)->model; }))
+      model.meshed = [&](std::size_t tree) { grown->trees[tree].skeleton.reset(); };
     auto meshes = scene::build_model(*grown, model, &progress);
     if (!meshes) return meshes.error();
     built = std::move(*meshes);
   }
   report.leaves = built.leaf_cards;
   report.triangles = built.triangles;
+  report.mesh_bytes = built.mesh_bytes;
   report.seconds.insert(built.seconds.begin(), built.seconds.end());
 
   Stopwatch exporting;
@@ -263,6 +273,7 @@ path of_year(const path& target, float year) {
 
 Result<void> make_and_report(const Options& options) {
   Report report;
+  report.program_mb = peak_rss_mb();
   Progress progress;
   Result<void> done;
   {

@@ -39,6 +39,8 @@ Result<void> write_report(const std::filesystem::path& path, const Report& repor
   json["threads"] = report.threads;
   json["seed"] = report.seed;
   json["peak_rss_mb"] = peak_rss_mb();
+  json["program_mb"] = report.program_mb;
+  json["mesh_mb"] = static_cast<double>(report.mesh_bytes) / (1024.0 * 1024.0);
   json["skeleton_digest"] = hex_digits(report.skeleton_digest);
   for (const char* stage : kStages) {
     const auto found = report.seconds.find(stage);

@@ -18,6 +18,8 @@ struct Report {
   std::size_t trees = 0, internodes = 0, leaves = 0, voxels = 0, triangles = 0;
   std::vector<std::pair<std::string, std::uint64_t>> bytes;             ///< by output
   std::map<std::string, std::vector<std::string>> required_extensions;  ///< of glTF outputs that need any
+  std::size_t mesh_bytes = 0;                                           ///< all meshes, in memory
+  double program_mb = 0;                                                ///< peak_rss_mb() before any work
   int threads = 1;                                                      ///< that really worked
   std::uint64_t seed = 0;
   std::uint64_t skeleton_digest = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <unordered_map>
@@ -39,9 +40,18 @@ std::string in_gigabytes(std::uint64_t bytes) {
 
 const Error kCancelled = cannot_finish("cancelled while writing glTF");
 
+// Room for the largest group, so that no larger one has to be copied.
+std::vector<std::byte> group_buffer(const MeshLayout& layout) {
+  std::uint64_t most = 0;
+  for (const MeshGroup& group : layout.groups) most = std::max(most, group.end - group.begin);
+  std::vector<std::byte> buffer;
+  buffer.reserve(most);
+  return buffer;
+}
+
 // The vertex data, group by group; false when cancelled.
 bool stream_meshes(FileOutput& file, const GltfContent& content, const GltfOptions& options) {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes = group_buffer(*content.layout);
   for (const MeshGroup& group : content.layout->groups) {
     if (options.progress && options.progress->cancelled()) return false;
     if (file.failed()) return true;  // commit() will say why
@@ -65,7 +75,7 @@ void write_packed(FileOutput& file, const PackedViews& packed) {
 // Everything packed, or cancelled.
 Result<PackedViews> pack(const GltfContent& content, const GltfOptions& options) {
   PackedViews packed;
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes = group_buffer(*content.layout);
   for (const MeshGroup& group : content.layout->groups) {
     if (options.progress && options.progress->cancelled()) return kCancelled;
     encode_group(content.stock->meshes, *content.layout, group, options.reorder, bytes);

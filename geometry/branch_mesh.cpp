@@ -47,6 +47,11 @@ struct Rings {
     for (std::size_t k = 1; k < rings.size(); ++k) sum += static_cast<std::size_t>(rings[k - 1].sides + rings[k].sides);
     return sum;
   }
+  std::size_t vertices() const {  // a ring begins and ends at one place; then the apex
+    std::size_t sum = 1;
+    for (const Ring& ring : rings) sum += static_cast<std::size_t>(ring.sides) + 1;
+    return sum;
+  }
 };
 
 /// Eq. C.2 with n = 2, divided by sqrt(coarseness).
@@ -144,8 +149,7 @@ class Tints {
 
 class Mesher {
  public:
-  Mesher(const Look& look, std::size_t triangles) : look_(look), tints_(look) {
-    const std::size_t vertices = triangles * 3 / 4;
+  Mesher(const Look& look, std::size_t triangles, std::size_t vertices) : look_(look), tints_(look) {
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices), mesh.uvs.reserve(vertices);
     mesh.colours.reserve(vertices), mesh.indices.reserve(3 * triangles);
   }
@@ -267,11 +271,17 @@ class Mesher {
   float lobes_ = 0.0f, lobe_phase_ = 0.0f;
 };
 
-std::size_t count(const BranchCurves& curves, const BranchCurve& curve, float coarseness, Rings& scratch) {
-  if (curve.count == 0) return 0;
+struct MeshSize {
+  std::size_t triangles = 0, vertices = 0;
+};
+
+MeshSize size_of(const BranchCurves& curves, const BranchCurve& curve, float coarseness, Rings& scratch) {
+  if (curve.count == 0) return {};
   select_rings(curves.of(curve), curves.tip_radius, coarseness, scratch);
-  return scratch.triangles();
+  return {scratch.triangles(), scratch.vertices()};
 }
+
+void add(BranchPlan& plan, const MeshSize& size) { plan.triangles += size.triangles, plan.vertices += size.vertices; }
 
 /// The branches that matter most, at the coarsest that limbs may become; stems in any case.
 BranchPlan most_important(const BranchCurves& curves, std::size_t max_triangles) {
@@ -282,9 +292,9 @@ BranchPlan most_important(const BranchCurves& curves, std::size_t max_triangles)
   // Stems first, as coarse as it takes.
   constexpr float kCoarsest = 1e6f;
   for (plan.coarseness = kCoarsestWhole;; plan.coarseness *= 2.0f) {
-    plan.triangles = 0;
+    plan.triangles = plan.vertices = 0;
     for (const BranchCurve& c : curves.curves)
-      if (c.parent < 0) plan.triangles += count(curves, c, plan.coarseness, scratch);
+      if (c.parent < 0) add(plan, size_of(curves, c, plan.coarseness, scratch));
     if (plan.triangles <= max_triangles || plan.coarseness > kCoarsest) break;
   }
   for (std::size_t c = 0; c < curves.curves.size(); ++c) plan.keep[c] = curves.curves[c].parent < 0;
@@ -298,10 +308,10 @@ BranchPlan most_important(const BranchCurves& curves, std::size_t max_triangles)
   for (std::uint32_t c : order) {
     const BranchCurve& curve = curves.curves[c];
     if (plan.keep[c] || !plan.keep[static_cast<std::size_t>(curve.parent)]) continue;
-    const std::size_t more = count(curves, curve, plan.coarseness, scratch);
-    if (plan.triangles + more > max_triangles) continue;
+    const MeshSize more = size_of(curves, curve, plan.coarseness, scratch);
+    if (plan.triangles + more.triangles > max_triangles) continue;
     plan.keep[c] = 1;
-    plan.triangles += more;
+    add(plan, more);
   }
   return plan;
 }
@@ -313,9 +323,9 @@ float occlusion(float exposure) {
 }
 
 BranchPlan plan_branches(const BranchCurves& curves, float coarseness) {
-  BranchPlan plan{coarseness, std::vector<std::uint8_t>(curves.curves.size(), 1), 0};
+  BranchPlan plan{coarseness, std::vector<std::uint8_t>(curves.curves.size(), 1), 0, 0};
   Rings scratch;
-  for (const BranchCurve& curve : curves.curves) plan.triangles += count(curves, curve, coarseness, scratch);
+  for (const BranchCurve& curve : curves.curves) add(plan, size_of(curves, curve, coarseness, scratch));
   return plan;
 }
 
@@ -343,7 +353,7 @@ BranchPlan plan_branches_within(const BranchCurves& curves, std::size_t max_tria
 TriangleMesh mesh_branches(const BranchCurves& curves, const BranchPlan& plan, const Look& look, std::uint64_t seed,
                            std::uint64_t key) {
   assert(plan.keep.size() == curves.curves.size());
-  Mesher mesher(look, plan.triangles);
+  Mesher mesher(look, plan.triangles, plan.vertices);
   Rings rings;
   for (std::size_t c = 0; c < curves.curves.size(); ++c) {
     const BranchCurve& curve = curves.curves[c];
@@ -352,7 +362,7 @@ TriangleMesh mesh_branches(const BranchCurves& curves, const BranchPlan& plan, c
     select_rings(path, curves.tip_radius, plan.coarseness, rings);
     mesher.add_path(path, rings, curve.parent < 0, RandomStream(seed, mix_bits(key) + c, Purpose::branch_mesh));
   }
-  assert(mesher.mesh.triangles() == plan.triangles);
+  assert(mesher.mesh.triangles() == plan.triangles && mesher.mesh.positions.size() == plan.vertices);
   return std::move(mesher.mesh);
 }
 

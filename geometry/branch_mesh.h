@@ -13,7 +13,7 @@
 //           turn hides repetition
 // Colour    bark_tint() of the look by diameter and height, times occlusion from the skeleton's light
 // Holds     no NaN, no triangle without area, unit normals; a path is closed but for its base, which lies inside its
-//           parent or under the ground; triangles(plan) is exactly what mesh_branches makes
+//           parent or under the ground; a plan's triangles and vertices are exactly what mesh_branches makes
 // Cost      about 50 million triangles a second; a plan within a budget some 0.3 microseconds an internode
 #pragma once
 
@@ -32,7 +32,7 @@ inline constexpr int kMostSides = 28;
 struct BranchPlan {
   float coarseness = 1.0f;
   std::vector<std::uint8_t> keep;  ///< for each curve; a curve is kept only with its parent
-  std::size_t triangles = 0;
+  std::size_t triangles = 0, vertices = 0;
 };
 
 /// Everything, at this coarseness (1 is the finest).

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "core/hash.h"
 #include "growth/detail.h"
@@ -45,11 +49,43 @@ struct ParameterHash {
   }
 };
 
+/// Work arrays of finished trees, for the next ones.
+class KeptTrees {
+ public:
+  std::unique_ptr<Tree> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Tree>();
+    std::unique_ptr<Tree> tree = std::move(idle_.back());
+    idle_.pop_back();
+    return tree;
+  }
+  void give(std::unique_ptr<Tree> tree) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(tree));
+  }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    idle_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Tree>> idle_;  ///< at most as many as ever grew at once
+};
+
+KeptTrees& kept_trees() {
+  static KeptTrees kept;
+  return kept;
+}
+
 }  // namespace
+
+void release_work_memory() { kept_trees().clear(); }
 
 Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* work) {
   assert(input.parameters && check(*input.parameters));
-  thread_local Tree tree;
+  std::unique_ptr<Tree> kept = kept_trees().take();
+  Tree& tree = *kept;
   plant(tree, input);
 
   while (!tree.finished && !(progress && progress->cancelled())) grow_season(tree);
@@ -58,6 +94,7 @@ Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* wo
   if (work) *work = tree.work;
 
   Skeleton grown = tree.wood;
+  kept_trees().give(std::move(kept));
   grown.radius = radii(grown);
   return input.detail == 1.0f ? grown : at_detail(grown, input.detail);
 }

@@ -12,7 +12,7 @@
 //           long as it takes, and growth ends when none can be claimed any more (painted.cpp)
 // Decision  detail is the resolution of the result, not a step of the model: a tree is the same at any (detail.h)
 // Holds     the skeleton is a pure function of the input: the same bits on any thread, in any order, in any build
-// Cost      about 1.5 microseconds for each internode that lives at the end (docs/performance.md); work arrays are kept per thread from tree to tree
+// Cost      about 1.5 microseconds for each internode that lives at the end (docs/performance.md); work arrays are kept from tree to tree
 #pragma once
 
 #include <cstdint>
@@ -51,6 +51,9 @@ struct GrowthWork {
 /// Grows one tree. Callers run it for many trees in parallel. Asks progress (may be null) once a season; after a cancel
 /// the skeleton is incomplete, to be dropped.
 Skeleton grow(const GrowthInput& input, const Progress* progress = nullptr, GrowthWork* work = nullptr);
+
+/// Gives back the arrays that are kept for further trees, some 20 MB for each thread that grew any.
+void release_work_memory();
 
 /// Hash of everything that grow() depends on: equal hashes, equal skeletons. For caches.
 std::uint64_t hash(const GrowthInput& input);

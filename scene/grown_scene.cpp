@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "growth/digest.h"
+#include "growth/grow.h"
 
 namespace bosquet::scene {
 
@@ -57,6 +58,7 @@ Result<GrownScene> grow_scene(const Document& given, const GrowOptions& options,
                                options.skeletons, progress, warnings[i]);
     if (progress) progress->advance();
   });
+  growth::release_work_memory();  // meshes are next
   if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
   for (std::string& warning : warnings)
     if (!warning.empty()) scene.warnings.push_back(std::move(warning));

@@ -154,6 +154,16 @@ std::size_t triangles(const std::vector<TriangleMesh>& meshes) {
   return sum;
 }
 
+std::size_t mesh_bytes(const std::vector<Part>& parts) {
+  std::size_t sum = 0;
+  const auto add = [&](const auto& list) { sum += list.size() * sizeof(list[0]); };
+  for (const Part& part : parts) {
+    const TriangleMesh& mesh = *part.mesh;
+    add(mesh.positions), add(mesh.normals), add(mesh.uvs), add(mesh.colours), add(mesh.indices);
+  }
+  return sum;
+}
+
 Node mesh_node(std::string name, TriangleMesh mesh, std::size_t material) {
   Node node;
   node.name = std::move(name);
@@ -275,7 +285,11 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   }
 
   if (progress) progress->begin("meshes", trees.size());
-  std::vector<TreeParts> parts = build_tree_parts(orders, options.levels, model.materials, progress);
+  std::vector<TreeParts> parts =
+      build_tree_parts(orders, options.levels, model.materials, progress, [&](std::size_t i) {
+        radii[i] = {};
+        if (options.meshed && i < scene.trees.size()) options.meshed(i);
+      });
   if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
   for (std::size_t i = 0; i < trees.size(); ++i) {
     built.leaf_cards += parts[i].leaf_cards;
@@ -289,6 +303,10 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     node.coarser = std::move(parts[i].coarser);
     node.coverage = parts[i].coverage;
     model.nodes.push_back(std::move(node));
+  }
+  for (const Node& node : model.nodes) {
+    built.mesh_bytes += mesh_bytes(node.parts);
+    for (const Level& level : node.coarser) built.mesh_bytes += mesh_bytes(level.parts);
   }
   model.cameras = document.cameras;
   model.sun = document.sun;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "core/progress.h"
 #include "core/result.h"
@@ -28,6 +29,8 @@ struct ModelOptions {
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::size_t max_triangles = 3'000'000;  ///< of the finest levels; 0: no limit
   bool levels = false;                    ///< trees get coarser levels too (scene/tree_parts.h)
+  /// Called from any thread with the index of a tree of the scene whose skeleton is not read any more: it may be given up.
+  std::function<void(std::size_t)> meshed{};
 };
 
 struct BuiltModel {
@@ -35,6 +38,7 @@ struct BuiltModel {
   Seconds seconds;                                                   ///< "geometry", "textures"
   std::size_t leaf_cards = 0;                                        ///< leaves or leafed twigs in the meshes
   std::size_t triangles = 0;                                         ///< of the finest levels
+  std::size_t mesh_bytes = 0;                                        ///< of all levels, in memory
   std::array<std::size_t, geometry::kTreeFormNames.size()> forms{};  ///< trees of each geometry::TreeForm
 };
 

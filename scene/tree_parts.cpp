@@ -189,7 +189,7 @@ void add_levels(const Builder& build, std::size_t i, TreeForm form, TreeParts& o
 }  // namespace
 
 std::vector<TreeParts> build_tree_parts(std::span<const TreeOrder> trees, bool levels, std::vector<Material>& materials,
-                                        Progress* progress) {
+                                        Progress* progress, const std::function<void(std::size_t)>& done) {
   std::vector<TreeParts> out(trees.size());
   std::vector<std::size_t> pictured, skinned;
   for (std::size_t i = 0; i < trees.size(); ++i) {
@@ -236,6 +236,7 @@ std::vector<TreeParts> build_tree_parts(std::span<const TreeOrder> trees, bool l
         break;
     }
     if (levels) add_levels(build, i, own.form, own);
+    if (done) done(i);
     if (progress) progress->advance();
   });
 

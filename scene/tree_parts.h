@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct TreeParts {
   geometry::TreeForm form = geometry::TreeForm::mesh;
 };
 
-/// `materials` are those of materials.h. Progress advances once a tree; cancelled, some of the parts are missing.
+/// `materials` are those of materials.h. Progress advances once a tree; cancelled, some of the parts are missing. `done`
+/// (may be empty) is called from any thread with the index of a tree whose input is not read any more.
 std::vector<TreeParts> build_tree_parts(std::span<const TreeOrder> trees, bool levels, std::vector<Material>& materials,
-                                        Progress* progress);
+                                        Progress* progress, const std::function<void(std::size_t)>& done = {});
 
 }  // namespace bosquet::scene

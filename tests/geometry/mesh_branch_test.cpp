@@ -54,6 +54,7 @@ TEST(BranchMesh, IsSoundForEveryHabitAndCoarseness) {
       const BranchPlan plan = plan_branches(curves, coarseness);
       const TriangleMesh mesh = mesh_branches(curves, plan, {}, 1, 2);
       EXPECT_EQ(mesh.triangles(), plan.triangles);
+      EXPECT_EQ(mesh.positions.size(), plan.vertices);
       expect_sound(mesh, kLeastArea);
       if (HasFatalFailure()) return;
     }
@@ -242,6 +243,7 @@ TEST(BranchMesh, ABudgetIsKeptAndDropsNoBranchBeforeTheBranchesItBears) {
         }
       const TriangleMesh mesh = mesh_branches(curves, plan, {}, 1, 2);
       EXPECT_EQ(mesh.triangles(), plan.triangles);
+      EXPECT_EQ(mesh.positions.size(), plan.vertices);
       // A budget is used: at least half of it, where there is enough to show.
       if (plan_branches(curves, 1.0f).triangles > 2 * budget) {
         EXPECT_GT(2 * plan.triangles, budget);

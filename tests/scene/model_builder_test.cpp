@@ -48,6 +48,25 @@ TEST(ModelBuilder, AModelHasANodeForEachTreeWithItsFacts) {
   EXPECT_EQ(trees, 3u);
 }
 
+TEST(ModelBuilder, SkeletonsMayBeGivenUpAsTheirTreesAreMeshed) {
+  GrownScene scene = small_scene();
+  const auto whole = build_model(scene, {.max_triangles = 20'000, .levels = true}, nullptr);
+  const auto leaner = build_model(
+      scene,
+      {.max_triangles = 20'000, .levels = true, .meshed = [&](std::size_t i) { scene.trees[i].skeleton.reset(); }},
+      nullptr);
+  ASSERT_TRUE(whole && leaner);
+  for (const GrownTree& tree : scene.trees) EXPECT_EQ(tree.skeleton, nullptr);
+  EXPECT_EQ(leaner->mesh_bytes, whole->mesh_bytes);
+  ASSERT_EQ(leaner->model.nodes.size(), whole->model.nodes.size());
+  for (std::size_t n = 0; n < whole->model.nodes.size(); ++n) {
+    const Node &a = leaner->model.nodes[n], &b = whole->model.nodes[n];
+    EXPECT_EQ(a.coarser.size(), b.coarser.size());
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    for (std::size_t p = 0; p < a.parts.size(); ++p) EXPECT_EQ(a.parts[p].mesh->positions, b.parts[p].mesh->positions);
+  }
+}
+
 TEST(ModelBuilder, TheTriangleBudgetIsKept) {
   const GrownScene scene = small_scene();
   for (std::size_t budget : {3'000u, 20'000u, 60'000u}) {
