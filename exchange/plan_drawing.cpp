@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "exchange/image_file.h"
 #include "exchange/plan_ground.h"
 #include "exchange/plan_sheet.h"
 #include "exchange/plan_symbols.h"
+#include "exchange/substitutes.h"
 #include "growth/measure.h"
 
 namespace bosquet::exchange {
@@ -31,6 +33,7 @@ constexpr Vec3 kInk(0.10f, 0.16f, 0.10f), kRemoved(0.75f, 0.20f, 0.15f), kProtec
 struct Crown {
   const scene::Tree* tree = nullptr;
   std::size_t species = 0;
+  std::string stands_for;  ///< the inventory's name, when it is drawn as another kind
   TreeStatus status = TreeStatus::proposed;
   DVec2 base{0.0};
   double trunk_m = 0;
@@ -65,22 +68,27 @@ constexpr TreeStatus kDrawn[] = {TreeStatus::to_remove, TreeStatus::existing, Tr
 
 std::vector<Crown> crowns_of(const scene::GrownScene& grown) {
   std::vector<Crown> all;
+  Substitutes substitutes(grown.given);
   const scene::Trees& trees = *grown.document.trees;
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const scene::Tree& tree = trees[i];
     const scene::GrownTree& made = grown.trees[i];
-    all.push_back({&tree, tree.species, tree.status, DVec2(tree.at),
+    all.push_back({&tree, tree.species, substitutes.stands_for(tree), tree.status, DVec2(tree.at),
                    static_cast<double>(made.measures.trunk_diameter_m), crown_outline(*made.skeleton, made.season)});
   }
   for (const scene::Tree& tree : *grown.given.trees) {
     if (tree.status != TreeStatus::to_remove) continue;
     const crowns::RepresentativeShape& shape = grown.given.species_of(tree).shape;
-    all.push_back({&tree, tree.species, tree.status, DVec2(tree.at),
+    all.push_back({&tree, tree.species, substitutes.stands_for(tree), tree.status, DVec2(tree.at),
                    static_cast<double>(tree.trunk_diameter_m.value_or(tree.scale_width * shape.trunk_width_m)),
                    round_outline(static_cast<double>(tree.scale_width * shape.crown_width_m))});
   }
   for (const scene::HeroTree& hero : grown.document.heroes)
-    all.push_back({nullptr, hero.species, TreeStatus::existing, DVec2(hero.at),
+    all.push_back({nullptr,
+                   hero.species,
+                   {},
+                   TreeStatus::existing,
+                   DVec2(hero.at),
                    static_cast<double>(growth::measure(*hero.skeleton).trunk_diameter_m),
                    crown_outline(*hero.skeleton, -1)});
   return all;
@@ -242,22 +250,26 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
   draw_site_edge(plan, size_m);
   draw_roots(plan, crowns);
 
-  // Species in the order of their botanical names, with what stands of each.
-  std::map<std::pair<std::string, std::size_t>, std::map<TreeStatus, std::vector<const Crown*>>> by_species;
-  for (const Crown& crown : crowns)
-    by_species[{document.species[crown.species]->botanical_name, crown.species}][crown.status].push_back(&crown);
+  // Kinds in the order of their names: species by the botanical one, and what only is drawn as a species by its own.
+  using Kind = std::tuple<std::string, std::size_t, bool>;  // name, species, whether it stands for another
+  std::map<Kind, std::map<TreeStatus, std::vector<const Crown*>>> by_kind;
   std::vector<std::string> names;
-  for (const auto& [species, standing] : by_species)
-    names.push_back(species.first.empty() ? document.species[species.second]->name : species.first);
+  for (const Crown& crown : crowns) {
+    const scene::Species& species = *document.species[crown.species];
+    const std::string& own = species.botanical_name.empty() ? species.name : species.botanical_name;
+    const bool other = !crown.stands_for.empty();
+    by_kind[{other ? crown.stands_for : own, crown.species, other}][crown.status].push_back(&crown);
+  }
+  for (const auto& [kind, standing] : by_kind) names.push_back(std::get<0>(kind));
   const std::vector<std::string> codes = species_codes(names);
 
   std::vector<SpeciesSymbol> symbols;
-  for (const auto& [species, standing] : by_species)
-    symbols.push_back(species_symbol(*document.species[species.second], symbols.size()));
+  for (const auto& [kind, standing] : by_kind)
+    symbols.push_back(species_symbol(*document.species[std::get<1>(kind)], symbols.size()));
   std::map<TreeStatus, std::size_t> totals;
   for (const TreeStatus status : kDrawn) {
     std::size_t place = 0;
-    for (const auto& [species, standing] : by_species) {
+    for (const auto& [kind, standing] : by_kind) {
       const std::size_t n = place++;
       const auto found = standing.find(status);
       if (found == standing.end()) continue;
@@ -272,7 +284,7 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
   if (document.plan.labels) {
     const std::size_t layer = add_layer(plan, "TREES-CODES", 7);
     std::size_t place = 0;
-    for (const auto& [species, standing] : by_species) {
+    for (const auto& [kind, standing] : by_kind) {
       const std::string& code = codes[place++];
       for (const auto& [status, all] : standing)
         for (const Crown* crown : all) {
@@ -287,13 +299,14 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
   // The key.
   KeyPart trees{"Trees", {}}, status_part{"Status", {}}, site{"Site", {}};
   std::size_t place = 0;
-  for (const auto& [species, standing] : by_species) {
+  for (const auto& [kind, standing] : by_kind) {
     std::size_t count = 0;
     for (const auto& [status, all] : standing) count += all.size();
-    const scene::Species& kind = *document.species[species.second];
+    const scene::Species& species = *document.species[std::get<1>(kind)];
+    const std::string common = species.common_names.empty() ? std::string() : species.common_names.front();
+    const std::string own = species.botanical_name.empty() ? species.name : species.botanical_name;
     trees.rows.push_back({key_sample(style_of(TreeStatus::proposed), symbols[place], false), codes[place], names[place],
-                          kind.common_names.empty() ? std::string() : kind.common_names.front(),
-                          fmt::format("{}", count)});
+                          std::get<2>(kind) ? "drawn as " + own : common, fmt::format("{}", count)});
     ++place;
   }
   for (const auto& [status, count] : totals) {

@@ -8,6 +8,8 @@
 // Decision  one symbol a species, by its place in the key: a pattern of the crown's outline and a tint; needle trees
 //           have a spiny outline. What a status is shows in pen and fill alone, so that it can be told in any species:
 //           existing strong, proposed thin, to be removed dashed and crossed, protected strong with its root circle
+// Decision  trees that are drawn as another species than their inventory names (substitutes.h) have a row, code and symbol
+//           of their own under the inventory's name, and the row says what they are drawn as
 // Decision  the sheet's furniture (key, scale bar, north arrow, title block, frame) is shapes like the rest, so that no
 //           writer knows of it
 // Frame     plan metres (east, north) from the site's south-west corner, for the furniture too; the paper's lower left

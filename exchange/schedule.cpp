@@ -47,9 +47,9 @@ std::string csv_field(std::string_view text) {
 }
 
 std::vector<SpeciesRow> summarise(std::span<const TreeRecord> trees) {
-  std::map<std::pair<std::string, std::string>, SpeciesRow> by_name;
+  std::map<std::array<std::string, 3>, SpeciesRow> by_name;
   for (const TreeRecord& tree : trees) {
-    SpeciesRow& sum = by_name[{tree.common, tree.botanical}];
+    SpeciesRow& sum = by_name[{tree.common, tree.botanical, tree.stands_for}];
     const double height = tree.shown_height_m(), crown = tree.shown_crown_m();
     sum.lowest_m = sum.trees == 0 ? height : std::min(sum.lowest_m, height);
     sum.highest_m = sum.trees == 0 ? height : std::max(sum.highest_m, height);
@@ -72,7 +72,7 @@ std::vector<SpeciesRow> summarise(std::span<const TreeRecord> trees) {
   std::vector<SpeciesRow> out;
   for (auto& [name, sum] : by_name) {
     const auto n = static_cast<double>(sum.trees);
-    sum.species = name.first, sum.botanical = name.second;
+    sum.species = name[0], sum.botanical = name[1], sum.stands_for = name[2];
     sum.mean_height_m /= n, sum.mean_crown_diameter_m /= n;
     if (sum.trunks > 0) sum.mean_trunk_diameter_m /= static_cast<double>(sum.trunks);
     out.push_back(std::move(sum));
@@ -84,14 +84,15 @@ Result<std::uint64_t> write_schedule(const std::filesystem::path& path, std::spa
   auto file = FileOutput::create(path);
   if (!file) return file.error();
   file->write(
-      "id,species,botanical_name,status,east_m,north_m,height_m,trunk_diameter_cm,crown_diameter_m,clear_stem_m,form,"
+      "id,species,botanical_name,stands_for,status,east_m,north_m,height_m,trunk_diameter_cm,crown_diameter_m,clear_"
+      "stem_m,form,"
       "age_years,inventory_id,inventory_name\n");
   for (const TreeRecord& t : trees) {
     const auto trunk = t.shown_trunk_m();
     file->write(fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.id, csv_field(t.common), csv_field(t.botanical),
-        scene::kTreeStatusNames[static_cast<std::size_t>(t.status)], fixed(t.map.x, 3), fixed(t.map.y, 3),
-        metres(t.shown_height_m()), trunk ? centimetres(*trunk) : "", metres(t.shown_crown_m()),
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.id, csv_field(t.common), csv_field(t.botanical),
+        csv_field(t.stands_for), scene::kTreeStatusNames[static_cast<std::size_t>(t.status)], fixed(t.map.x, 3),
+        fixed(t.map.y, 3), metres(t.shown_height_m()), trunk ? centimetres(*trunk) : "", metres(t.shown_crown_m()),
         t.clear_stem_m > 0 ? metres(t.clear_stem_m) : "", t.form, t.grown ? fixed(t.grown->age_years, 0) : "",
         csv_field(t.inventory_id), csv_field(t.inventory_name)));
   }
@@ -101,13 +102,13 @@ Result<std::uint64_t> write_schedule(const std::filesystem::path& path, std::spa
 Result<std::uint64_t> write_summary(const std::filesystem::path& path, std::span<const SpeciesRow> rows) {
   auto file = FileOutput::create(path);
   if (!file) return file.error();
-  std::string line = "species,botanical_name,trees";
+  std::string line = "species,botanical_name,stands_for,trees";
   for (const std::string_view status : scene::kTreeStatusNames) line += fmt::format(",{}", status);
   line += ",mean_height_m,lowest_m,highest_m,mean_trunk_diameter_cm,mean_crown_diameter_m";
   line += class_names("trunk", "cm", kTrunkClasses_cm) + class_names("height", "m", kHeightClasses_m);
   file->write(line + ",basal_area_m2,crown_area_m2,crown_area_kept_m2\n");
   for (const SpeciesRow& r : rows) {
-    line = fmt::format("{},{},{}", csv_field(r.species), csv_field(r.botanical), r.trees);
+    line = fmt::format("{},{},{},{}", csv_field(r.species), csv_field(r.botanical), csv_field(r.stands_for), r.trees);
     for (const std::size_t n : r.by_status) line += fmt::format(",{}", n);
     line += fmt::format(",{},{},{},{},{}", metres(r.mean_height_m), metres(r.lowest_m), metres(r.highest_m),
                         r.trunks > 0 ? centimetres(r.mean_trunk_diameter_m) : "", metres(r.mean_crown_diameter_m));

@@ -27,6 +27,7 @@ inline constexpr std::array kHeightClasses_m{5.0, 10.0, 15.0, 20.0, 25.0};
 
 struct SpeciesRow {
   std::string species, botanical;
+  std::string stands_for;  ///< the inventory's name of trees that are drawn as this species
   std::size_t trees = 0;
   std::array<std::size_t, scene::kTreeStatusNames.size()> by_status{};
   double mean_height_m = 0, lowest_m = 0, highest_m = 0;
@@ -39,7 +40,7 @@ struct SpeciesRow {
   double crown_area_kept_m2 = 0;  ///< without the trees that are to be removed
 };
 
-/// One row per (species, botanical).
+/// One row per (species, botanical, stands_for).
 std::vector<SpeciesRow> summarise(std::span<const TreeRecord> trees);
 
 Result<std::uint64_t> write_schedule(const std::filesystem::path& path, std::span<const TreeRecord> trees);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "exchange/substitutes.h"
+
 namespace bosquet::exchange {
 namespace {
 
@@ -34,6 +36,7 @@ std::vector<TreeRecord> tree_records(const scene::Document& document) {
   std::vector<TreeRecord> out;
   out.reserve(document.trees->size());
   const DVec2 corner = document.place.south_west;
+  Substitutes substitutes(document);
   for (const scene::Tree& tree : *document.trees) {
     const scene::Species& species = document.species_of(tree);
     TreeRecord r;
@@ -51,6 +54,7 @@ std::vector<TreeRecord> tree_records(const scene::Document& document) {
     r.clear_stem_m = tree.clear_stem_m;
     if (tree.form.clipped()) r.form = crowns::kFormKindNames[static_cast<std::size_t>(tree.form.kind)];
     r.inventory_name = tree.inventory_name, r.inventory_id = tree.inventory_id;
+    r.stands_for = substitutes.stands_for(tree);
     out.push_back(std::move(r));
   }
   return out;

@@ -34,6 +34,7 @@ struct TreeRecord {
   float clear_stem_m = 0;                    ///< 0: none was asked for
   std::string form;                          ///< that it is clipped to; empty: none
   std::string inventory_name, inventory_id;  ///< may be empty
+  std::string stands_for;  ///< the inventory's name, when the tree is drawn as another kind; else empty
   std::optional<GrownSizes> grown;
 
   float shown_height_m() const { return grown ? grown->height_m : height_m; }

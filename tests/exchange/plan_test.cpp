@@ -14,6 +14,7 @@
 #include "exchange/plan_sheet.h"
 #include "exchange/plan_symbols.h"
 #include "exchange/recipe.h"
+#include "exchange/tree_records.h"
 #include "tests/exchange/scratch_folder.h"
 
 namespace bosquet::exchange {
@@ -216,6 +217,37 @@ TEST(PlanDrawing, TheKeyCountsEverySpecies) {
   EXPECT_TRUE(has("To be removed"));
   EXPECT_TRUE(has("Garten & <Hof>"));
   EXPECT_TRUE(has("1:200 (A3)"));
+}
+
+TEST(PlanDrawing, WhatIsDrawnAsAnotherSpeciesIsNamedAsItsInventoryNamesIt) {
+  const ScratchFolder folder;
+  spit(folder / "t.csv",
+       "x,y,species,height_m\n5,5,Bergahorn,4\n12,5,Spitzahorn,4\n19,5,Ginkgo biloba,4\n26,5,Bergahorn,4\n");
+  auto recipe = parse_recipe("[site]\nsize_m = [32, 12]\n[[planting]]\nkind = \"inventory\"\nfile = \"t.csv\"\n",
+                             folder / "test.toml");
+  ASSERT_TRUE(recipe) << recipe.error().message;
+  auto built = build_document(*recipe);
+  ASSERT_TRUE(built) << built.error().message;
+  const auto scene = scene::grow_scene(built->document, {}, nullptr);
+  const auto plan = draw_plan(*scene, "survey");
+  ASSERT_TRUE(plan);
+  std::vector<std::string> words;
+  for (const PlanItem* item : on_layer(*plan, "SHEET"))
+    if (const auto* text = std::get_if<PlanText>(&item->shape)) words.push_back(text->words);
+  const auto row = [&](const std::string& name, const std::string& second, const std::string& count) {
+    const auto at = std::find(words.begin(), words.end(), name);
+    ASSERT_TRUE(words.end() - at > 2) << name;
+    EXPECT_EQ(at[1], second);
+    EXPECT_EQ(at[2], count);
+  };
+  row("Bergahorn", "drawn as Acer platanoides", "2");
+  row("Acer platanoides", "Norway maple", "1");
+  row("Ginkgo biloba", "drawn as Quercus robur", "1");
+  EXPECT_EQ(on_layer(*plan, "TREES-EXISTING-BERGAHORN").size(), 4u) << "two crowns and their trunks";
+
+  const auto records = tree_records(*scene);
+  EXPECT_EQ(records[0].stands_for, "Bergahorn");
+  EXPECT_EQ(records[1].stands_for, "");
 }
 
 TEST(PlanDrawing, SvgHasALayerForEachOfThePlansAndTheSameBytesTwice) {

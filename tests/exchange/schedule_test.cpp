@@ -31,15 +31,17 @@ TEST(Schedule, IsOneLineATreeWithQuotesWhereNeeded) {
   auto trees = records();
   trees[1].clear_stem_m = 2.2f, trees[1].inventory_id = "B-17", trees[1].form = "ball";
   trees[2].grown.reset();
+  trees[2].stands_for = "QUPE";
   trees[2].height_m = 7.5f, trees[2].crown_diameter_m = 3;
   ASSERT_TRUE(write_schedule(folder / "a.csv", trees));
   EXPECT_EQ(slurp(folder / "a.csv"),
-            "id,species,botanical_name,status,east_m,north_m,height_m,trunk_diameter_cm,crown_diameter_m,clear_stem_m,"
+            "id,species,botanical_name,stands_for,status,east_m,north_m,height_m,trunk_diameter_cm,crown_diameter_m,"
+            "clear_stem_m,"
             "form,age_years,inventory_id,inventory_name\n"
-            "1,English oak,Quercus robur,proposed,512345.679,5400002.000,12.35,40.0,8.00,,,42,,\n"
-            "2,Silver birch,Betula pendula,existing,3.000,0.000,9.00,20.0,4.00,2.20,ball,42,B-17,"
+            "1,English oak,Quercus robur,,proposed,512345.679,5400002.000,12.35,40.0,8.00,,,42,,\n"
+            "2,Silver birch,Betula pendula,,existing,3.000,0.000,9.00,20.0,4.00,2.20,ball,42,B-17,"
             "\"Birke, \"\"hell\"\"\"\n"
-            "7,English oak,Quercus robur,to_remove,5.000,6.000,7.50,,3.00,,,,,QURO\n");
+            "7,English oak,Quercus robur,QUPE,to_remove,5.000,6.000,7.50,,3.00,,,,,QURO\n");
 }
 
 TEST(Schedule, CanBeReadAgainAsAnInventory) {
@@ -72,16 +74,22 @@ TEST(Schedule, SpeciesAreSummedInTheOrderOfTheirNames) {
   EXPECT_NEAR(sums[0].crown_area_kept_m2, std::numbers::pi / 4 * 64, 1e-9);
   EXPECT_EQ(sums[1].trees, 1u);
   EXPECT_TRUE(summarise({}).empty());
+  auto with_another = records();
+  with_another[2].stands_for = "Sessile oak";
+  const auto apart = summarise(with_another);
+  ASSERT_EQ(apart.size(), 3u);
+  EXPECT_EQ(apart[1].stands_for, "Sessile oak") << "what is drawn as an oak is counted apart from oaks";
 
   const ScratchFolder folder;
   ASSERT_TRUE(write_summary(folder / "s.csv", sums));
-  EXPECT_EQ(slurp(folder / "s.csv"),
-            "species,botanical_name,trees,proposed,existing,to_remove,protected,mean_height_m,lowest_m,highest_m,"
-            "mean_trunk_diameter_cm,mean_crown_diameter_m,trunk_to_10_cm,trunk_10_to_20_cm,trunk_20_to_40_cm,"
-            "trunk_40_to_60_cm,trunk_60_to_80_cm,trunk_from_80_cm,height_to_5_m,height_5_to_10_m,height_10_to_15_m,"
-            "height_15_to_20_m,height_20_to_25_m,height_from_25_m,basal_area_m2,crown_area_m2,crown_area_kept_m2\n"
-            "English oak,Quercus robur,2,1,0,1,0,10.17,8.00,12.35,30.0,7.00,0,0,1,1,0,0,0,1,1,0,0,0,0.157,78.5,50.3\n"
-            "Silver birch,Betula pendula,1,0,1,0,0,9.00,9.00,9.00,20.0,4.00,0,0,1,0,0,0,0,1,0,0,0,0,0.031,12.6,12.6\n");
+  EXPECT_EQ(
+      slurp(folder / "s.csv"),
+      "species,botanical_name,stands_for,trees,proposed,existing,to_remove,protected,mean_height_m,lowest_m,highest_m,"
+      "mean_trunk_diameter_cm,mean_crown_diameter_m,trunk_to_10_cm,trunk_10_to_20_cm,trunk_20_to_40_cm,"
+      "trunk_40_to_60_cm,trunk_60_to_80_cm,trunk_from_80_cm,height_to_5_m,height_5_to_10_m,height_10_to_15_m,"
+      "height_15_to_20_m,height_20_to_25_m,height_from_25_m,basal_area_m2,crown_area_m2,crown_area_kept_m2\n"
+      "English oak,Quercus robur,,2,1,0,1,0,10.17,8.00,12.35,30.0,7.00,0,0,1,1,0,0,0,1,1,0,0,0,0.157,78.5,50.3\n"
+      "Silver birch,Betula pendula,,1,0,1,0,0,9.00,9.00,9.00,20.0,4.00,0,0,1,0,0,0,0,1,0,0,0,0,0.031,12.6,12.6\n");
 }
 
 TEST(Schedule, ClassesOfSizesHoldEveryTreeOnce) {
