@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "cli/commands.h"
@@ -310,9 +311,14 @@ Result<void> run_make(const Options& options) {
     return make_and_report(options);
   }
   scene::SkeletonCache skeletons;  // years only change how much of a tree is shown
+  // The oldest first: its trees are the largest, and what shows them shows all.
+  std::vector<float> years = options.years;
+  std::sort(years.begin(), years.end(), std::greater());
+  const auto camera = std::make_shared<std::optional<scene::Camera>>();
   std::vector<Options> all;
-  for (const float year : options.years) {
+  for (const float year : years) {
     Options& at = all.emplace_back(options);
+    at.set_camera = camera;
     at.grow.year = year;
     at.grow.skeletons = &skeletons;
     for (path& target : at.outputs) target = of_year(target, year);

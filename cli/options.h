@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "geometry/season.h"
 #include "geometry/tree_mesh.h"
 #include "scene/grown_scene.h"
+#include "scene/model.h"
 
 namespace bosquet::cli {
 
@@ -57,6 +59,8 @@ struct Options {
   std::optional<float> slice_m;
   std::string camera, sun;
   int width = 1600, height = 900;
+  /// Pictures of a set share the camera that the first of them found, where neither recipe nor user gives one.
+  std::shared_ptr<std::optional<scene::Camera>> set_camera;
 
   // Import.
   std::filesystem::path dem, inventory, obstacle;

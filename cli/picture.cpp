@@ -37,6 +37,35 @@ Result<scene::Sun> chosen_sun(const scene::Document& document, const Options& op
   return render::sun_from_text(options.sun, {document.place.latitude_deg, document.place.longitude_deg, {}});
 }
 
+// What stands on the ground, a box for each node; everything where nothing stands.
+std::vector<Box3> what_stands(const scene::Model& model) {
+  std::vector<Box3> boxes;
+  for (const scene::Node& node : model.nodes) {
+    Box3 box;
+    for (const scene::Part& part : node.parts) {
+      const scene::Surface surface = model.materials[part.material].surface;
+      if (!part.mesh || part.mesh->empty() || surface == scene::Surface::ground || surface == scene::Surface::water)
+        continue;
+      const Box3 own = part.mesh->bounds();
+      box.add(own.low + node.translation), box.add(own.high + node.translation);
+    }
+    if (!box.empty()) boxes.push_back(box);
+  }
+  if (boxes.empty()) boxes.push_back(render::bounds(model));
+  return boxes;
+}
+
+// From the south, low enough that trees stand before each other and some sky is left.
+scene::Camera usual_camera(const scene::Model& model, const Options& options) {
+  constexpr float kElevation_deg = 16.0f;
+  if (options.set_camera && *options.set_camera) return **options.set_camera;
+  const scene::Camera camera =
+      render::frame(what_stands(model), static_cast<float>(options.width) / static_cast<float>(options.height),
+                    kElevation_deg);
+  if (options.set_camera) *options.set_camera = camera;
+  return camera;
+}
+
 }  // namespace
 
 Result<void> check_picture_options(const scene::Document& document, const Options& options) {
@@ -62,8 +91,7 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   } else if (!model.cameras.empty()) {
     view.camera = model.cameras.front();
   } else {
-    view.camera =
-        render::frame(render::bounds(model), static_cast<float>(options.width) / static_cast<float>(options.height));
+    view.camera = usual_camera(model, options);
   }
   view.width = options.width;
   view.height = options.height;

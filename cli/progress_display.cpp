@@ -75,7 +75,7 @@ void ProgressDisplay::show_until_stopped() {
     } else if (const double running = seconds_since(start);
                !stage.empty() && running - last_plain_s >= kPlainLineEvery_s) {
       last_plain_s = running;
-      if (total == 0)
+      if (total < 2)
         fmt::print(stderr, "{}\n", stage);
       else
         fmt::print(stderr, "{}: {} of {} {}\n", stage, done, total, time_left(elapsed, share));

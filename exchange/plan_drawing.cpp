@@ -306,7 +306,7 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
     const std::string common = species.common_names.empty() ? std::string() : species.common_names.front();
     const std::string own = species.botanical_name.empty() ? species.name : species.botanical_name;
     trees.rows.push_back({key_sample(style_of(TreeStatus::proposed), symbols[place], false), codes[place], names[place],
-                          std::get<2>(kind) ? "drawn as " + own : common, fmt::format("{}", count)});
+                          std::get<2>(kind) ? "drawn as " + own : common, fmt::format("{}", count), !std::get<2>(kind)});
     ++place;
   }
   for (const auto& [status, count] : totals) {

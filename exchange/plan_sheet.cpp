@@ -216,7 +216,7 @@ void furnish(PlanDrawing& plan, std::size_t layer, const scene::PlanSettings& se
       if (!line.code.empty()) sheet.text(x, y, 2.4f, line.code, PlanAlign::left, true), x += 9.0;
       const double room = right - x - 14.0;
       sheet.text(x, line.second.empty() ? y : y + 1.3, 2.4f, cut(line.name, room, 2.4), PlanAlign::left, false,
-                 !line.second.empty());
+                 line.italic && !line.second.empty());
       sheet.text(x, y - 1.9, 2.0f, cut(line.second, room, 2.0));
       sheet.text(right - 3.0, y, 2.4f, line.count, PlanAlign::right);
       y -= line.second.empty() ? 5.6 : 7.0;

@@ -22,6 +22,7 @@ struct KeyRow {
   std::vector<PlanItem> sample;  ///< in millimetres on paper
   std::string code, name, second;
   std::string count;
+  bool italic = true;  ///< the name, where a second stands under it: as botanical ones are written
 };
 struct KeyPart {
   std::string heading;

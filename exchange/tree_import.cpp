@@ -25,6 +25,7 @@ using Known = std::span<const std::shared_ptr<const scene::Species>>;
 
 constexpr std::uint64_t kMostSynonymBytes = 16 << 20;
 constexpr float kMostScale = 2.0f;  // beyond it set_measured_size cuts
+constexpr double kAround_m = 1.0;     // left between a surveyed crown and the site's edge, as crowns lean a little
 constexpr std::size_t kListedTwins = 20;
 
 std::string shown(const std::string& name) { return name.empty() ? "(no name)" : name; }
@@ -233,7 +234,7 @@ std::pair<DVec2, DVec2> site_around(std::span<const InventoryTree> trees, Known 
     scene::Tree tree;
     tree.scale_width = kind.planting.scale_max;
     set_size(tree, kind, row, match->second.width);
-    const DVec2 crown(0.5 * static_cast<double>(tree.scale_width * kind.shape.crown_width_m));
+    const DVec2 crown(kAround_m + 0.5 * static_cast<double>(tree.scale_width * kind.shape.crown_width_m));
     low = glm::min(low, row.plan - crown), high = glm::max(high, row.plan + crown);
   }
   const DVec2 corner = glm::floor(low);

@@ -34,6 +34,13 @@ Box3 bounds(const scene::Model& model) {
 }
 
 scene::Camera frame(const Box3& box, float aspect, float elevation_deg, float azimuth_deg, float vertical_fov_deg) {
+  return frame(std::span(&box, 1), aspect, elevation_deg, azimuth_deg, vertical_fov_deg);
+}
+
+scene::Camera frame(std::span<const Box3> boxes, float aspect, float elevation_deg, float azimuth_deg,
+                    float vertical_fov_deg) {
+  Box3 box;
+  for (const Box3& one : boxes) box.add(one);
   scene::Camera camera;
   camera.name = "whole";
   camera.vertical_fov_deg = vertical_fov_deg;
@@ -52,13 +59,16 @@ scene::Camera frame(const Box3& box, float aspect, float elevation_deg, float az
   // A corner c (from the box's centre) is inside when |c.r - x| <= tan * (d - c.back) for the eye at distance d and
   // offset x: each side gives a bound, left and right (low and high) together give d and x.
   float right_bound = -1e30f, left_bound = -1e30f, high_bound = -1e30f, low_bound = -1e30f;
-  for (const Vec3& corner : corners(box)) {
-    const Vec3 c = corner - box.centre();
-    const float toward = glm::dot(c, back);
-    right_bound = std::max(right_bound, glm::dot(c, right) + tan_right * toward);
-    left_bound = std::max(left_bound, -glm::dot(c, right) + tan_right * toward);
-    high_bound = std::max(high_bound, glm::dot(c, up) + tan_up * toward);
-    low_bound = std::max(low_bound, -glm::dot(c, up) + tan_up * toward);
+  for (const Box3& one : boxes) {
+    if (one.empty()) continue;
+    for (const Vec3& corner : corners(one)) {
+      const Vec3 c = corner - box.centre();
+      const float toward = glm::dot(c, back);
+      right_bound = std::max(right_bound, glm::dot(c, right) + tan_right * toward);
+      left_bound = std::max(left_bound, -glm::dot(c, right) + tan_right * toward);
+      high_bound = std::max(high_bound, glm::dot(c, up) + tan_up * toward);
+      low_bound = std::max(low_bound, -glm::dot(c, up) + tan_up * toward);
+    }
   }
   float distance = std::max((right_bound + left_bound) / (2 * tan_right), (high_bound + low_bound) / (2 * tan_up));
   distance = std::max(distance, 0.05f);

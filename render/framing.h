@@ -4,6 +4,7 @@
 // Errors    camera_from_text lists the model's camera names and the six numbers it would take
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "core/result.h"
@@ -19,6 +20,9 @@ Box3 bounds(const scene::Model& model);
 /// picture of `aspect` = width/height with a margin of 4 % on the tightest side. `azimuth_deg` turns it: from where it
 /// looks, from north clockwise.
 scene::Camera frame(const Box3& box, float aspect, float elevation_deg = 30.0f, float azimuth_deg = 180.0f,
+                    float vertical_fov_deg = 40.0f);
+/// The same about several boxes, as near as shows them all.
+scene::Camera frame(std::span<const Box3> boxes, float aspect, float elevation_deg, float azimuth_deg = 180.0f,
                     float vertical_fov_deg = 40.0f);
 
 /// Cameras that look from eye to target, given in world or in plan terms.

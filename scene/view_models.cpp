@@ -132,9 +132,49 @@ void add_footprints(Model& model, const GrownScene& scene, float y, std::size_t 
   }
 }
 
+// Linear tints by kind of area, water last.
+constexpr std::array<Vec3, 6> kAreaTints{{{0.72f, 0.70f, 0.64f},
+                                          {0.66f, 0.56f, 0.40f},
+                                          {0.58f, 0.76f, 0.42f},
+                                          {0.52f, 0.36f, 0.24f},
+                                          {0.45f, 0.44f, 0.43f},
+                                          {0.30f, 0.52f, 0.72f}}};
+
+// What is barred from planting, by its kind, and water, cell by cell of the ground: a quad for each run along a row.
+void add_areas(Model& model, const GrownScene& scene, float y, std::size_t material) {
+  const terrain::Terrain& ground = *scene.document.terrain;
+  const IVec2 cells = ground.height.cells();
+  const float cell = ground.height.cell_m();
+  const Vec2 size = ground.size_m();
+  constexpr int kNone = -1;
+  const auto kind = [&](int i, int j) {
+    const Vec2 at = cell * (Vec2(i, j) + 0.5f);
+    if (ground.under_water(at)) return static_cast<int>(terrain::AreaKind::water);
+    const terrain::Area* area = ground.area_at(at);
+    // A pond's area is its outline, also where it is dry.
+    return area && area->kind != terrain::AreaKind::water ? static_cast<int>(area->kind) : kNone;
+  };
+  TriangleMesh mesh;
+  for (int j = 0; j < cells.y; ++j)
+    for (int i = 0; i < cells.x;) {
+      const int k = kind(i, j);
+      int end = i + 1;
+      while (end < cells.x && kind(end, j) == k) ++end;
+      if (k != kNone) {
+        const Vec2 low = cell * Vec2(i, j), high = glm::min(cell * Vec2(end, j + 1), size);
+        add_quad(mesh,
+                 {to_world(low, y), to_world({high.x, low.y}, y), to_world(high, y), to_world({low.x, high.y}, y)},
+                 colour(kAreaTints[static_cast<std::size_t>(k)]));
+      }
+      i = end;
+    }
+  add_node(model, "areas", std::move(mesh), material);
+}
+
 void add_crown_discs(Model& model, const GrownScene& scene, float y) {
   const std::size_t flat = add_material(model, "plan", Surface::obstacle);
   add_node(model, "site", sheet(scene, y), flat);
+  add_areas(model, scene, y + 0.02f, flat);
   add_footprints(model, scene, y + 0.03f, flat);
   // Taller crowns over lower ones, each a little higher so that none flickers.
   std::vector<std::size_t> order(scene.trees.size());

@@ -2,7 +2,7 @@
 //
 // Views     shapes    the representative shapes that trees claim space with, on the ground
 //           regions   one layer of the crown space from above, a colour for each tree
-//           plan      crowns as grown, as discs coloured by species, with their trunks
+//           plan      crowns as grown, as discs coloured by species, with their trunks, over areas and water
 //           arrows    the plan with the neighbourhood asymmetry of each tree as an arrow
 // Frame     world; views from above are flat, at the height of the highest ground
 // Errors    regions and arrows need a scene that was grown with crown regions

@@ -66,6 +66,18 @@ TEST_F(Commands, SeveralYearsGiveASetOfFilesForEach) {
   EXPECT_EQ(bosquet("stats grove.toml --year 5,60").status, 1);
 }
 
+TEST_F(Commands, PicturesOfSeveralYearsHaveTheCameraOfTheOldest) {
+  // The same tree at the same age, once beside what it will be and once alone: seen from afar it is small.
+  write("one.toml",
+        "[site]\nsize_m = [10, 10]\n[[planting]]\nkind = \"single\"\nat = [5, 5]\nspecies = { silver_birch = 1 }\n"
+        "scale = 0.4\n");
+  ASSERT_EQ(bosquet("make one.toml -o set.png --year 4,60 --size 160x90 --quiet").status, 0);
+  ASSERT_EQ(bosquet("make one.toml -o old.png --year 60 --size 160x90 --quiet").status, 0);
+  ASSERT_EQ(bosquet("make one.toml -o young.png --year 4 --size 160x90 --quiet").status, 0);
+  EXPECT_EQ(file_text(folder_ / "set-60.png"), file_text(folder_ / "old.png"));
+  EXPECT_NE(file_text(folder_ / "set-4.png"), file_text(folder_ / "young.png"));
+}
+
 TEST_F(Commands, TreesNearerThanTheRecipesClearanceAreNamed) {
   write("near.toml", file_text(folder_ / "grove.toml") + "[clearance]\nedge_m = 6\n");
   const Ran ran = bosquet("make near.toml -o g.svg -o g.dxf --report r.json");

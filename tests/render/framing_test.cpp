@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -46,6 +47,19 @@ TEST(Frame, LooksFromTheSouthDownByThirtyDegreesUnlessAsked) {
   EXPECT_NEAR(line.x, 0, 1e-5);
   EXPECT_NEAR(line.y, -0.5, 1e-5);
   EXPECT_LT(line.z, 0);
+}
+
+TEST(Frame, SeveralBoxesAreShownFromNearerThanTheOneAroundThem) {
+  const std::array<Box3, 2> boxes{Box3{{0, 0, -2}, {100, 2, 0}}, Box3{{40, 0, -100}, {60, 20, -90}}};
+  Box3 around = boxes[0];
+  around.add(boxes[1]);
+  const scene::Camera all = frame(boxes, 1.6f, 16.0f);
+  for (const Box3& box : boxes) {
+    const Vec2 most = reach(all, box, 1.6f);
+    EXPECT_LT(std::max(most.x, most.y), 0.925f);
+  }
+  const scene::Camera one = frame(around, 1.6f, 16.0f);
+  EXPECT_LT(glm::length(all.eye - around.centre()), glm::length(one.eye - around.centre()));
 }
 
 TEST(Frame, OfNothingIsStillACamera) {

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "scene/view_models.h"
+#include "terrain/exclusion.h"
 #include "tests/scene/sample_document.h"
 
 namespace bosquet::scene {
@@ -168,6 +169,31 @@ TEST(ViewModels, EveryViewHasMeshes) {
       }
     EXPECT_GT(triangles, 50u);
   }
+}
+
+TEST(ViewModels, ThePlanShowsAreasAndWater) {
+  GrownScene scene = small_scene();
+  terrain::Terrain ground = *scene.document.terrain;
+  const auto without = plan_model(scene);
+  ground = terrain::exclude(ground, {{{2, 2}, {8, 2}, {8, 6}, {2, 6}}, {}},
+                            {"green", terrain::AreaKind::lawn, terrain::Cover::grass});
+  scene.document.terrain = std::make_shared<const terrain::Terrain>(ground);
+  const auto areas_of = [](const Model& model) {
+    double square_m = 0;
+    for (const Node& node : model.nodes)
+      if (node.name == "areas")
+        for (std::size_t t = 0; t < node.parts[0].mesh->indices.size(); t += 3) {
+          const auto& mesh = *node.parts[0].mesh;
+          const auto corner = [&](std::size_t k) { return mesh.positions[mesh.indices[t + k]]; };
+          square_m += 0.5 * static_cast<double>(glm::cross(corner(1) - corner(0), corner(2) - corner(0)).y);
+        }
+    return square_m;
+  };
+  EXPECT_EQ(areas_of(*without), 0.0);
+  EXPECT_NEAR(areas_of(*plan_model(scene)), 24.0, 3.0);
+  ground.water_level_m = ground.height.range().high + 1.0f;
+  scene.document.terrain = std::make_shared<const terrain::Terrain>(ground);
+  EXPECT_NEAR(areas_of(*plan_model(scene)), 144.0, 1e-3) << "water over all";
 }
 
 }  // namespace
