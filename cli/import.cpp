@@ -35,7 +35,10 @@ std::string toml_text(const std::string& text) {
   std::string out = "\"";
   for (char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    out += c;
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
   }
   return out + '"';
 }
@@ -130,6 +133,10 @@ Result<void> run_import(const Options& options) {
     if (!site) site = Extent{raster->low_corner(), raster->high_corner() - raster->low_corner()};
     ground = fmt::format("dem = {}\ndem_south_west = [{}, {}]\n", toml_text(path_from(options.file, options.dem)),
                          site->south_west.x, site->south_west.y);
+    if (raster->georeferenced && raster->crs_wkt.empty())
+      print_warnings(
+          {fmt::format("{}: names no reference system; its coordinates count as metres", options.dem.string())},
+          options.quiet);
     fmt::print("{}: {} x {} cells of {:g} m\n", options.dem.string(), raster->columns, raster->rows, raster->cell_x_m);
   }
 

@@ -59,9 +59,8 @@ std::vector<Box3> what_stands(const scene::Model& model) {
 scene::Camera usual_camera(const scene::Model& model, const Options& options) {
   constexpr float kElevation_deg = 16.0f;
   if (options.set_camera && *options.set_camera) return **options.set_camera;
-  const scene::Camera camera =
-      render::frame(what_stands(model), static_cast<float>(options.width) / static_cast<float>(options.height),
-                    kElevation_deg);
+  const scene::Camera camera = render::frame(
+      what_stands(model), static_cast<float>(options.width) / static_cast<float>(options.height), kElevation_deg);
   if (options.set_camera) *options.set_camera = camera;
   return camera;
 }

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
 
+#include "exchange/number_text.h"
 #include "exchange/shapes.h"
 
 namespace bosquet::exchange {
@@ -27,12 +26,12 @@ HeightText height_of(const Shape& shape) {
   for (std::size_t n = 0; n < shape.values.size() && !out.metres; ++n) {
     if (!shape.values[n] || shape.values[n]->empty()) continue;
     const std::string& text = *shape.values[n];
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);  // "12 m" reads as 12
-    if (end == text.c_str() || !std::isfinite(value) || value <= 0)
+    const NumberText number = read_number(text, {.decimal_comma = true});  // "12 m" and "8,5" are numbers
+    if (number.reading != NumberReading::number || number.value <= 0)
       out.refused = text;
     else
-      out.metres = std::min(n < kHeights.size() ? value : kLevel_m * value, kMostHeight_m);
+      out.metres =
+          std::min((n < kHeights.size() ? number.metres.value_or(1.0) : kLevel_m) * number.value, kMostHeight_m);
   }
   return out;
 }

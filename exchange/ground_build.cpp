@@ -155,7 +155,9 @@ class Maker {
       warn(ground_.place.crs_wkt.empty()
                ? fmt::format("{}: reprojected to local metres", raster.file)
                : fmt::format("{}: reprojected to {}", raster.file, system_facts(ground_.place.crs_wkt).name));
-    if (raster.georeferenced && raster.crs_wkt.empty())
+    // A recipe that tells the site's corner in the raster's coordinates knows what they are.
+    const bool own = recipe_.dem_corner_given && ground_.place.crs_wkt.empty();
+    if (raster.georeferenced && raster.crs_wkt.empty() && !own)
       warn(fmt::format("{}: names no reference system; its coordinates count as metres{}", raster.file,
                        ground_.place.crs_wkt.empty() ? "" : " of the site's"));
   }

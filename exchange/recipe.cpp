@@ -421,6 +421,8 @@ class Reader {
       else if (!table.has(key))
         table.error("", fmt::format("a [[camera]] needs {} = [east, north, metres above the ground]", key));
     }
+    if (camera.eye == camera.target && table.has("eye") && table.has("target"))
+      table.error("target", "eye and target are the same point; the camera has no direction");
     camera.vertical_fov_deg = static_cast<float>(table.number("fov_deg", 5, 120).value_or(40.0));
     camera.on_ground = table.boolean("on_ground").value_or(true);
     table.finish();

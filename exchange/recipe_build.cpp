@@ -12,6 +12,7 @@
 #include "exchange/mesh_file.h"
 #include "exchange/recipe.h"
 #include "exchange/recipe_write.h"
+#include "exchange/shapes.h"
 #include "scene/clipped_tree.h"
 #include "scene/planting_edits.h"
 #include "scene/site_edits.h"
@@ -63,11 +64,24 @@ class StandingIds {
 Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std::vector<std::string>& warnings) {
   const terrain::Terrain& ground = *document.terrain;
   std::vector<scene::Obstacle> all;
+  std::set<std::string> names;
   for (const ObstacleRecipe& o : recipe.obstacles) {
     const std::string ending = o.file.extension().string();
+    if (!names.insert(o.name).second)
+      warnings.push_back(fmt::format("two obstacles are named '{}'; files and lists will not tell them apart", o.name));
     if (o.file.empty()) {
-      all.push_back(o.low_m ? scene::extruded_between(o.name, {o.outline, o.holes}, *o.low_m, *o.high_m)
-                            : scene::extruded(o.name, {o.outline, o.holes}, o.height_m, ground));
+      std::vector<Polygon> parts = untangled({o.outline, o.holes});
+      if (parts.empty()) return Error{fmt::format("obstacle '{}': its outline has no area", o.name)};
+      if (parts.size() > 1)
+        warnings.push_back(
+            fmt::format("obstacle '{}': its outline crosses itself and makes {} parts; what is inside "
+                        "goes by the even-odd rule",
+                        o.name, parts.size()));
+      for (Polygon& part : parts) {
+        all.push_back(o.low_m ? scene::extruded_between(o.name, std::move(part), *o.low_m, *o.high_m)
+                              : scene::extruded(o.name, std::move(part), o.height_m, ground));
+        all.back().id = 0;
+      }
     } else if (ending == ".glb" || ending == ".gltf" || ending == ".obj") {
       auto mesh = read_mesh(o.file);
       if (!mesh) return Error{fmt::format("obstacle '{}': {}", o.name, mesh.error().message)};
@@ -87,7 +101,7 @@ Result<void> make_obstacles(const Recipe& recipe, scene::Document& document, std
         all.back().id = 0;
       }
     }
-    // A file of outlines makes several: their ids are the next ones.
+    // A file of outlines, or one that crosses itself, makes several: their ids are the next ones.
     all.back().id = o.id;
     if (all.back().mesh->empty()) return Error{fmt::format("obstacle '{}': its outline has no area", all.back().name)};
   }

@@ -25,7 +25,7 @@ using Known = std::span<const std::shared_ptr<const scene::Species>>;
 
 constexpr std::uint64_t kMostSynonymBytes = 16 << 20;
 constexpr float kMostScale = 2.0f;  // beyond it set_measured_size cuts
-constexpr double kAround_m = 1.0;     // left between a surveyed crown and the site's edge, as crowns lean a little
+constexpr double kAround_m = 1.0;   // left between a surveyed crown and the site's edge, as crowns lean a little
 constexpr std::size_t kListedTwins = 20;
 
 std::string shown(const std::string& name) { return name.empty() ? "(no name)" : name; }

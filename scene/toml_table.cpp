@@ -140,7 +140,9 @@ Result<TomlFile> TomlFile::parse(std::string_view text, std::string name) {
   try {
     file.contents_->root = toml::parse(text);
   } catch (const toml::parse_error& e) {
-    return Error{fmt::format("{}:{}: {}", name, e.source().begin.line, e.description())};
+    const std::string what(e.description());
+    return Error{fmt::format("{}:{}: {}{}", name, e.source().begin.line, what,
+                             what.find("saw ','") == std::string::npos ? "" : "; decimals stand behind a point: 0.8")};
   }
   file.contents_->name = std::move(name);
   return file;
@@ -267,7 +269,10 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
   for (std::size_t i = 0; list && i < list->size(); ++i)
     if (auto value = list->get(i)->value<double>(); value && std::isfinite(*value)) values.push_back(*value);
   if (!list || values.size() != count || list->size() != count) {
-    error(key, fmt::format("{} must be a list of {} numbers", key, count));
+    error(key, fmt::format("{} must be a list of {} numbers{}", key, count,
+                           list && list->size() > count
+                               ? fmt::format(", not {}; decimals stand behind a point: 0.8", list->size())
+                               : ""));
     return {};
   }
   return values;

@@ -146,6 +146,19 @@ TEST(Footprints, OutlinesInDegreesPlaceASiteThatHadNoPlace) {
   EXPECT_NE(notes.find("'tall' of building 1"), std::string::npos) << notes;
 }
 
+TEST(Footprints, HeightsMayHaveADecimalCommaAndAUnit) {
+  const ScratchFolder folder;
+  for (const auto& [text, metres] : {std::pair{"8,5", 8.5f}, {"12 m", 12.0f}, {"30 ft", 9.144f}}) {
+    const auto read = read_footprints(
+        write(folder, "h.geojson",
+              std::string(R"({"type":"Feature","properties":{"height":")") + text +
+                  R"("},"geometry":{"type":"Polygon","coordinates":[[[501,1],[509,1],[509,9],[501,1]]]}})"),
+        at({500, 0}));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_FLOAT_EQ(read->all.at(0).height_m.value_or(0), metres) << text;
+  }
+}
+
 TEST(Footprints, AnOutlineThatCrossesItselfIsTakenApartAndNamed) {
   const ScratchFolder folder;
   const auto read = read_footprints(
@@ -232,6 +245,20 @@ TEST(RecipeObstacle, MistakesAreToldBeforeAnyWork) {
   EXPECT_NE(mistake("[[obstacle]]\npolygon = [[1, 1], [5, 1], [5, 4]]\nscale = 2\n").find("meshes"), std::string::npos);
   EXPECT_NE(mistake("[[obstacle]]\npolygon = [[1, 1], [5, 1], [9, 1]]\n").find("no area"), std::string::npos);
   EXPECT_NE(mistake("[[obstacle]]\nname = 'x'\nfile = 'none.glb'\n").find("none.glb"), std::string::npos);
+}
+
+TEST(RecipeObstacle, OutlinesThatCrossThemselvesAndNamesGivenTwiceAreWarnedAbout) {
+  const ScratchFolder folder;
+  const auto built = build(folder,
+                           "[[obstacle]]\nname = 'bow'\nid = -7\npolygon = [[1, 1], [9, 9], [9, 1], [1, 9]]\n"
+                           "[[obstacle]]\nname = 'bow'\npolygon = [[20, 1], [25, 1], [25, 4]]\n");
+  ASSERT_TRUE(built) << built.error().message;
+  ASSERT_EQ(built->document.obstacles.size(), 3u);
+  EXPECT_EQ(built->document.obstacles[1].id, -7);
+  std::string warnings;
+  for (const std::string& w : built->warnings) warnings += w + "\n";
+  EXPECT_NE(warnings.find("obstacle 'bow': its outline crosses itself and makes 2 parts"), std::string::npos);
+  EXPECT_NE(warnings.find("two obstacles are named 'bow'"), std::string::npos) << warnings;
 }
 
 }  // namespace

@@ -148,6 +148,12 @@ TEST(Recipe, MistakesAreToldBeforeAnyWork) {
   EXPECT_NE(mistake_in("[[interaction]]\nof = 'silver_birch'\n").find("needs 'on'"), std::string::npos);
   EXPECT_NE(mistake_in("[[species]]\nname = 'new_oak'\n").find("unknown species 'new_oak'"), std::string::npos);
   EXPECT_NE(mistake_in("[[camera]]\neye = [1, 2]\n").find("eye must be a list of 3 numbers"), std::string::npos);
+  EXPECT_NE(mistake_in("[[camera]]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n").find("eye and target are the same point"),
+            std::string::npos);
+  EXPECT_NE(mistake_in("[[camera]]\neye = [1,5, 2, 3]\n").find("not 4; decimals stand behind a point"),
+            std::string::npos);
+  EXPECT_NE(mistake_in("[terrain.noise]\namplitude_m = 0,6\n").find("decimals stand behind a point"),
+            std::string::npos);
 }
 
 TEST(Recipe, AClippedHedgeIsOneBodyAboutItsLine) {

@@ -97,6 +97,13 @@ TEST_F(RecipeWriteTest, ADocumentWithEverythingComesBackWithTheSameDigests) {
   expect_equal(back, again(back));
 }
 
+TEST_F(RecipeWriteTest, ASiteThatNobodyPlacedOnEarthComesBackWithoutAWarning) {
+  Document document = everything();
+  document.place.crs_wkt.clear();
+  document.plan.title = "no \x7f letter";
+  expect_equal(document, again(document));  // which fails on any warning
+}
+
 TEST_F(RecipeWriteTest, AGroundWithoutAreasHasAMapOfItsMasksAlone) {
   Document d = everything();
   terrain::Terrain ground = terrain::make_terrain(d.terrain->height);
