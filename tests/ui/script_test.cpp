@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 namespace bosquet::ui {
 namespace {
 
@@ -26,6 +29,23 @@ TEST(Script, AMistakeIsToldWithItsLineAndWhatIsAllowed) {
   EXPECT_NE(unknown.find("drag"), std::string::npos) << unknown;
   EXPECT_NE(problem_of("move 3\n").find("takes 2 words"), std::string::npos);
   EXPECT_NE(problem_of("scroll up\n").find("'up' is not a number"), std::string::npos);
+}
+
+TEST(Script, TheGuideExplainsEveryCommandAndItsExampleIsAScript) {
+  std::ifstream in(std::string(BOSQUET_SOURCE_DIR) + "/docs/guide.md");
+  std::ostringstream text;
+  text << in.rdbuf();
+  const std::string guide = text.str();
+  // The message about an unknown command names them all.
+  std::string all = problem_of("jump\n");
+  all = all.substr(all.find("there are: ") + 11);
+  std::istringstream names(all);
+  for (std::string name; names >> name;) {
+    if (name.back() == ',') name.pop_back();
+    EXPECT_NE(guide.find("\n| `" + name), std::string::npos) << name;
+  }
+  const std::size_t begin = guide.rfind("\n```\n", guide.rfind("\n```\n") - 1) + 5;
+  EXPECT_EQ(problem_of(guide.substr(begin, guide.rfind("\n```\n") + 1 - begin)), "");
 }
 
 }  // namespace
