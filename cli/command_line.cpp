@@ -168,7 +168,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
   ParsedLine parsed;
   Options& o = parsed.options;
 
-  CLI::App app{"Bosquet: paint a forest, and every tree grows its own way."};
+  CLI::App app{"Bosquet: paint a forest, and every tree grows its own way.", "bosquet"};
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
   app.require_subcommand(0, 1);
 

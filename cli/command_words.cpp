@@ -56,10 +56,13 @@ std::optional<std::string> wrong_word(const CLI::App& app, const std::vector<std
   if (found->size() > 1 && found->front() == '-') {
     const std::string name = found->substr(0, found->find('='));
     return fmt::format("{} has no option {}{}", where, name,
-                       suggestion(scene::nearest_name(name, option_names(command))));
+                       name.size() > 2 ? suggestion(scene::nearest_name(name, option_names(command))) : "");
   }
   if (commands.empty())
     return fmt::format("'{}' is a word too many for {}; a name with spaces needs quotes", *found, where);
+  const std::vector<std::string> options = option_names(command);
+  if (const std::string option = "--" + *found; std::find(options.begin(), options.end(), option) != options.end())
+    return fmt::format("'{}' is an option: {}", *found, option);
   const std::string near = scene::nearest_name(*found, commands);
   if (near.empty() && !inmost && (found->ends_with(".toml") || found->ends_with(".bosquet")))
     return fmt::format("there is no command '{}'; to see a file in the window: bosquet ui {}", *found, *found);

@@ -8,6 +8,7 @@
 #include "cli/picture.h"
 #include "core/stopwatch.h"
 #include "exchange/file_output.h"
+#include "exchange/inventory.h"
 #include "exchange/recipe.h"
 #include "scene/clearance.h"
 #include "scene/project_file.h"
@@ -71,10 +72,19 @@ Result<scene::Document> load_document(const Options& options, Report& report, Pr
     report.seconds = built->seconds;
     report.warnings = built->warnings;
   } else {
-    return Error{fmt::format("{}: is no recipe (.toml) and no project (.bosquet)", options.file.string())};
+    return Error{fmt::format("{}: is no recipe (.toml) and no project (.bosquet){}", options.file.string(),
+                             import_hint(options.file))};
   }
   report.seed = document.seed;
   return document;
+}
+
+std::string import_hint(const std::filesystem::path& file) {
+  const std::string ending = exchange::lower_ending(file);
+  const bool raster = ending == ".tif" || ending == ".tiff" || ending == ".asc" || ending == ".vrt";
+  if (!raster && ending != ".csv" && !exchange::is_vector_file(file)) return "";
+  return fmt::format("; one is made of it by: bosquet import NAME.toml {} {}", raster ? "--dem" : "--trees",
+                     shell_word(file.string()));
 }
 
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {

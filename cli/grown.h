@@ -11,6 +11,9 @@ namespace bosquet::cli {
 /// The document of a recipe (.toml), which is planted, or of a project (.bosquet); fills the report as far as it goes.
 Result<scene::Document> load_document(const Options& options, Report& report, Progress& progress);
 
+/// For messages about a file that is somebody's survey: how a recipe is made of it; empty for other files.
+std::string import_hint(const std::filesystem::path& file);
+
 /// Loads the document and grows it.
 Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress);
 

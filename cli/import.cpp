@@ -101,7 +101,8 @@ Result<void> run_import(const Options& options) {
   if (options.file.extension() == ".bosquet") return import_into_project(options);
   if (!options.obstacle.empty()) return Error{"--obstacle is for projects (.bosquet); a recipe has [[obstacle]]"};
   if (options.file.extension() != ".toml")
-    return Error{fmt::format("{}: import adds to a recipe, a .toml file", options.file.string())};
+    return Error{fmt::format("{}: import adds to a recipe (.toml) or project (.bosquet){}", options.file.string(),
+                             import_hint(options.file))};
   if (options.dem.empty() && options.inventory.empty()) return Error{"import needs --dem FILE, --trees FILE or both"};
   auto text = old_text(options.file);
   if (!text) return text.error();

@@ -72,6 +72,12 @@ DVec2 centred(const std::vector<DVec2>& points, DVec2 size) {
   return e.empty() ? DVec2(0.0) : glm::floor(e.middle() - 0.5 * size);
 }
 
+// A system of PROJ's words has no name.
+std::string name_of(const std::string& system) {
+  const std::string name = system_facts(system).name;
+  return name.empty() || name == "unknown" ? "the site's own plane" : name;
+}
+
 void move_to(std::vector<DVec2>& points, DVec2 corner) {
   for (DVec2& p : points) p -= corner;
 }
@@ -150,8 +156,7 @@ Result<OnSite> onto_site(std::vector<DVec2> points, const FrameOf& frame) {
     if (corner) corner = (*way)(*corner);
     if (corner && !finite(*corner))
       return Error{fmt::format("its south_west is no place in {}", system_facts(target).name)};
-    if (site_known)
-      out.notes.push_back(fmt::format("reprojected from {} to {}", facts.name, system_facts(target).name));
+    if (site_known) out.notes.push_back(fmt::format("reprojected from {} to {}", facts.name, name_of(target)));
   }
   if (!corner) {
     corner = out.place ? out.place->south_west : frame.site.south_west;

@@ -168,8 +168,11 @@ TEST_F(BadInput, AMistypedWordIsToldAloneWithTheNearestRightOne) {
   says("species", "'species' needs one of: list, show, calibrate, gallery");
   says("make my park.toml -o x.glb", "'park.toml' is a word too many for 'make'; a name with spaces needs quotes");
   says("park.toml", "bosquet ui park.toml");
+  says("help", "'help' is an option: --help");
   says("make x.toml -o x.glb --detail 0,8", "0.25 to 4; decimals stand behind a point: 0.8");
   says("make x.toml -o x.glb --max-triangles 1000000001", "0 to 1000000000");
+  says("make 'my survey.gpkg' -o x.glb", "bosquet import NAME.toml --trees 'my survey.gpkg'");
+  says("import ground.tif", "bosquet import NAME.toml --dem ground.tif");
   says("make x.toml -o .", ".: is a folder; name a file in it");
   says("make x.toml -o park", "park: has no ending, which tells what to write");
   says("make x.toml -o park.glb --tree 1", "needs an output that it goes into, -o NAME.tree.json");
