@@ -141,16 +141,24 @@ class VectorTable : public TreeTable {
     const GdalMessages quiet;
     while (parts_.empty()) {
       if (layer_ == layers_.size()) return false;
+      CPLErrorReset();
       feature_.reset(layers_[layer_]->GetNextFeature());
       if (!feature_) {
+        const bool damaged = CPLGetLastErrorType() >= CE_Failure;
         if (++layer_ < layers_.size()) layers_[layer_]->ResetReading();
-        continue;
+        if (!damaged) continue;
+        row.line = last_ + 1;
+        row.place.reset();
+        row.fields.assign(columns.size(), "");
+        row.problem = "the file is damaged from here on" + GdalMessages::last();
+        return true;
       }
       take_apart();
     }
     const Part part = parts_.front();
     parts_.pop_front();
-    row.line = static_cast<int>(std::clamp<GIntBig>(feature_->GetFID(), 0, std::numeric_limits<int>::max()));
+    row.line = static_cast<int>(std::clamp<GIntBig>(feature_->GetFID(), 0, std::numeric_limits<int>::max() - 1));
+    last_ = row.line;
     row.place = part.place;
     row.problem.clear();
     if (!part.place) row.problem = "it is no point";
@@ -290,6 +298,7 @@ class VectorTable : public TreeTable {
   std::vector<std::vector<int>> places_;  ///< of each layer: which column each of its fields is
   std::size_t layer_ = 0;
   OGRFeatureUniquePtr feature_;
+  int last_ = 0;            ///< number of the feature read last
   std::deque<Part> parts_;  ///< of feature_, still to come
   bool drawing_ = false;
 };

@@ -447,6 +447,28 @@ std::string drawing() {
   return out + tag(0, "ENDSEC") + tag(0, "EOF");
 }
 
+TEST(VectorTrees, AFileThatBreaksOffIsToldWhereItDoes) {
+  const ScratchFolder folder;
+  std::string rows = "x,y\n";
+  for (int n = 0; n < 400; ++n) rows += std::to_string(1 + n % 20) + "," + std::to_string(1 + n / 20) + "\n";
+  spit(folder / "t.csv", rows);
+  const scene::Document document = document_with(empty_site({30, 30}, utm_site()), folder / "t.csv");
+  ASSERT_TRUE(write_trees(folder / "t.gpkg", tree_records(document), document.place, {30, 30}));
+  const auto whole = read_inventory(folder / "t.gpkg");
+  ASSERT_TRUE(whole);
+  ASSERT_EQ(whole->trees.size(), 400u);
+  // A page in the middle of the table.
+  std::string bytes = slurp(folder / "t.gpkg");
+  const std::size_t page = 4096, at = bytes.size() / 2 / page * page;
+  bytes.replace(at, 2 * page, 2 * page, '\x5a');
+  spit(folder / "t.gpkg", bytes);
+  const auto read = read_inventory(folder / "t.gpkg");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_LT(read->trees.size(), 400u) << "nothing was lost: the page is another's";
+  ASSERT_FALSE(read->problems.empty());
+  EXPECT_NE(read->problems.back().reason.find("damaged from here on"), std::string::npos);
+}
+
 TEST(VectorTrees, PointsBlocksAndCirclesOfADrawingAreTrees) {
   const ScratchFolder folder;
   spit(folder / "plan.dxf", drawing());
