@@ -229,6 +229,8 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
       grown->space = {}, grown->light = {};
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
+    const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
+    model.paintings = &paintings;
     model.levels = options.lod != exchange::LodFiles::none;
     if (!some_output(options, [](const path& p) { return !format_of(p)->model; }))
       model.meshed = [&](std::size_t tree) { grown->trees[tree].skeleton.reset(); };

@@ -1,6 +1,8 @@
 #include "scene/materials.h"
 
 #include <iterator>
+#include <string_view>
+#include <type_traits>
 
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -35,43 +37,105 @@ Material leaf_material(std::string name, const Species& species, geometry::LeafA
   return material;
 }
 
-// Bark for job 0, all that has leaves for job 1.
-void make_part(const Species& species, geometry::Season season, std::size_t job, Material* parts) {
-  const std::uint64_t seed = kTextureSeed + hash_text(species.name);
-  if (job == 0) {
-    auto textures = geometry::make_bark(species.look, seed, kBarkPixels);
-    Material& bark = parts[kBarkPart];
-    bark.name = species.name + "-bark";
-    bark.surface = Surface::bark;
-    bark.base_colour = shared(std::move(textures.base_colour));
-    bark.normal = shared(std::move(textures.normal));
-    bark.roughness = 0.9f;
-  } else {
-    geometry::LeafAtlas atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
-    parts[kMassPart] = leaf_material(species.name + "-foliage", species, geometry::make_foliage_mass(atlas, seed));
-    parts[kLeafPart] = leaf_material(species.name + "-leaf", species, std::move(atlas));
+/// Hash of described values.
+struct LookHash {
+  Hasher& hasher;
+  template <class Info, class Value>
+  void operator()(const Info&, const Value& v) {
+    if constexpr (std::is_enum_v<Value>)
+      hasher.add(static_cast<int>(v));
+    else
+      hasher.add(v);
   }
+};
+
+// What the paintings of a kind are made from.
+Hasher key_of(const char* kind, std::uint64_t seed, int pixels) {
+  Hasher key;
+  key.add(painter_version()).add(std::string_view(kind)).add(seed).add(pixels);
+  return key;
 }
 
-Material ground_look() {
-  auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
+/// The `count` images with this key, painted when there are none.
+template <class Paint>
+std::vector<Image> painted(const PaintingCache* paintings, std::uint64_t key, std::size_t count, const Paint& paint) {
+  if (paintings)
+    if (auto found = paintings->find(key); found && found->size() == count) return *std::move(found);
+  std::vector<Image> images = paint();
+  if (paintings) paintings->store(key, images);
+  return images;
+}
+
+std::vector<Image> list_of(Image a, Image b) {
+  std::vector<Image> list;
+  list.push_back(std::move(a)), list.push_back(std::move(b));
+  return list;
+}
+
+void paint_bark(const Species& species, std::uint64_t seed, const PaintingCache* paintings, Material& bark) {
+  Hasher key = key_of("bark", seed, kBarkPixels);
+  LookHash visit{key};
+  describe(species.look, visit);  // twigs lend their colour
+  auto images = painted(paintings, key.digest(), 2, [&] {
+    auto textures = geometry::make_bark(species.look, seed, kBarkPixels);
+    return list_of(std::move(textures.base_colour), std::move(textures.normal));
+  });
+  bark.name = species.name + "-bark";
+  bark.surface = Surface::bark;
+  bark.base_colour = shared(std::move(images[0]));
+  bark.normal = shared(std::move(images[1]));
+  bark.roughness = 0.9f;
+}
+
+void paint_leaves(const Species& species, geometry::Season season, std::uint64_t seed, const PaintingCache* paintings,
+                  Material* parts) {
+  Hasher key = key_of("leaves", seed, kAtlasPixels).add(static_cast<int>(season));
+  LookHash visit{key};
+  geometry::describe_leaf(species.look.leaf, visit);
+  auto images = painted(paintings, key.digest(), 4, [&] {
+    geometry::LeafAtlas atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
+    geometry::LeafAtlas mass = geometry::make_foliage_mass(atlas, seed);
+    std::vector<Image> list = list_of(std::move(atlas.base_colour), std::move(atlas.normal));
+    list.push_back(std::move(mass.base_colour)), list.push_back(std::move(mass.normal));
+    return list;
+  });
+  parts[kLeafPart] = leaf_material(species.name + "-leaf", species, {std::move(images[0]), std::move(images[1])});
+  parts[kMassPart] = leaf_material(species.name + "-foliage", species, {std::move(images[2]), std::move(images[3])});
+}
+
+// Bark for job 0, all that has leaves for job 1.
+void make_part(const Species& species, geometry::Season season, std::size_t job, const PaintingCache* paintings,
+               Material* parts) {
+  const std::uint64_t seed = kTextureSeed + hash_text(species.name);
+  if (job == 0)
+    paint_bark(species, seed, paintings, parts[kBarkPart]);
+  else
+    paint_leaves(species, season, seed, paintings, parts);
+}
+
+Material ground_look(const PaintingCache* paintings) {
+  auto images = painted(paintings, key_of("ground", kTextureSeed, kGroundPixels).digest(), 2, [] {
+    auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
+    return list_of(std::move(textures.base_colour), std::move(textures.normal));
+  });
   Material ground;
   ground.name = "ground";
   ground.surface = Surface::ground;
-  ground.base_colour = shared(std::move(textures.base_colour));
-  ground.normal = shared(std::move(textures.normal));
+  ground.base_colour = shared(std::move(images[0]));
+  ground.normal = shared(std::move(images[1]));
   return ground;
 }
 
 }  // namespace
 
-std::vector<Material> species_materials(const Species& species, geometry::Season season) {
+std::vector<Material> species_materials(const Species& species, geometry::Season season,
+                                        const PaintingCache* paintings) {
   std::vector<Material> parts(kOfSpecies);
-  parallel_for(2, [&](std::size_t job) { make_part(species, season, job, parts.data()); });
+  parallel_for(2, [&](std::size_t job) { make_part(species, season, job, paintings, parts.data()); });
   return parts;
 }
 
-std::vector<Material> site_materials() {
+std::vector<Material> site_materials(const PaintingCache* paintings) {
   Material water;
   water.name = "water";
   water.surface = Surface::water;
@@ -82,10 +146,11 @@ std::vector<Material> site_materials() {
   obstacle.surface = Surface::obstacle;
   obstacle.base_factor = Vec4(kObstacleGrey, 1.0f);
   obstacle.double_sided = true;  // meshes of others face any way
-  return {ground_look(), std::move(water), std::move(obstacle)};
+  return {ground_look(paintings), std::move(water), std::move(obstacle)};
 }
 
-std::vector<Material> make_materials(const Document& document, geometry::Season season) {
+std::vector<Material> make_materials(const Document& document, geometry::Season season,
+                                     const PaintingCache* paintings) {
   const std::size_t n = document.species.size();
   std::vector<Material> materials(kOfSpecies * n);
   std::vector<bool> used(n, false);
@@ -95,9 +160,9 @@ std::vector<Material> make_materials(const Document& document, geometry::Season 
   parallel_for(2 * n + 1, [&](std::size_t job) {
     const std::size_t s = job / 2;
     if (s == n)
-      site = site_materials();
+      site = site_materials(paintings);
     else if (used[s])
-      make_part(*document.species[s], season, job % 2, &materials[material_of(s, kBarkPart)]);
+      make_part(*document.species[s], season, job % 2, paintings, &materials[material_of(s, kBarkPart)]);
   });
   materials.insert(materials.end(), std::make_move_iterator(site.begin()), std::make_move_iterator(site.end()));
   return materials;

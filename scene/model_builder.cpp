@@ -206,7 +206,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
 
   Stopwatch watch;
   if (progress) progress->begin("textures", 0);
-  model.materials = make_materials(document, options.season);
+  model.materials = make_materials(document, options.season, options.paintings);
   built.seconds["textures"] = watch.restart();
 
   geometry::GroundOptions ground_options;

@@ -19,6 +19,7 @@
 #include "geometry/tree_levels.h"
 #include "scene/grown_scene.h"
 #include "scene/model.h"
+#include "scene/painting_cache.h"
 
 namespace bosquet::scene {
 
@@ -27,8 +28,9 @@ inline constexpr float kGroundShare = 0.08f;
 struct ModelOptions {
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
-  std::size_t max_triangles = 3'000'000;  ///< of the finest levels; 0: no limit
-  bool levels = false;                    ///< trees get coarser levels too (scene/tree_parts.h)
+  std::size_t max_triangles = 3'000'000;     ///< of the finest levels; 0: no limit
+  bool levels = false;                       ///< trees get coarser levels too (scene/tree_parts.h)
+  const PaintingCache* paintings = nullptr;  ///< textures painted before; may be null
   /// Called from any thread with the index of a tree of the scene whose skeleton is not read any more: it may be given up.
   std::function<void(std::size_t)> meshed{};
 };

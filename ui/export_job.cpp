@@ -60,9 +60,11 @@ void ExportJob::start(scene::GrownScene scene, const ExportSettings& settings, s
       [scene = std::move(scene), settings, target = std::move(target), progress = progress_.get()]() -> std::string {
         scene::ModelOptions model;
         model.max_triangles = static_cast<std::size_t>(std::max(0, settings.max_triangles));
+        const exchange::TextureCache cache = exchange::TextureCache::of_user();
+        const scene::PaintingCache paintings(cache.folder());
+        model.paintings = &paintings;
         auto built = scene::build_model(scene, model, progress);
         if (!built) return built.error().message;
-        const exchange::TextureCache cache = exchange::TextureCache::of_user();
         exchange::GltfOptions options = gltf_options(settings);
         options.version = "bosquet";
         options.textures = &cache;

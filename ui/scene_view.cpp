@@ -6,6 +6,7 @@
 
 #include "core/hash.h"
 #include "core/stopwatch.h"
+#include "exchange/texture_cache.h"
 #include "geometry/ground_mesh.h"
 #include "geometry/tree_mesh.h"
 #include "scene/materials.h"
@@ -47,7 +48,8 @@ Result<SceneView> SceneView::create() {
   if (!renderer) return renderer.error();
   view.renderer_ = std::move(*renderer);
   scene::Model base;
-  base.materials = scene::site_materials();
+  const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
+  base.materials = scene::site_materials(&paintings);
   scene::Material shape;
   shape.name = "shape";
   shape.surface = scene::Surface::obstacle;
@@ -85,7 +87,8 @@ std::optional<std::size_t> SceneView::materials_of(const scene::Document& docume
   auto& made = species_made_[kind->name];
   if (!made.valid())
     made = std::async(std::launch::async, [kind] {
-      return render::make_levels(scene::species_materials(*kind, geometry::Season::summer));
+      const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
+      return render::make_levels(scene::species_materials(*kind, geometry::Season::summer, &paintings));
     });
   if (!ready(made)) return {};
   auto first = renderer_->add_materials(made.get());
