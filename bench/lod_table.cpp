@@ -25,7 +25,7 @@
 namespace bosquet {
 namespace {
 
-constexpr std::size_t kBudgets[] = {0, 20'000, 8'000, 3'000, 1'000, 400, 160, 120, 60, 10, 4};
+constexpr std::size_t kBudgets[] = {0, 20'000, 8'000, 3'000, 1'000, 400, 300, 160, 60, 10, 4};
 constexpr std::size_t kStrip[] = {0, 8'000, 1'000, 160, 60, 10, 4};
 constexpr int kMostPixels = 1080;
 

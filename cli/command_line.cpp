@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "cli/command_words.h"
@@ -159,6 +161,21 @@ void add_picture(CLI::App* app, Options& o) {
          "A camera of the recipe, or eye and target as east,north,height,east,north,height (heights above datum 0)")
       ->option_text("NAME|x,y,z,tx,ty,tz");
   app->add_option("--sun", o.sun, "\"2026-06-21 15:00\" or azimuth,elevation in degrees")->option_text("TIME|az,el");
+  app->add_option_function<std::vector<std::string>>(
+         "--figure",
+         [&o](const std::vector<std::string>& places) {
+           for (const std::string& text : places) {
+             Vec2 at{0.0f};
+             int used = 0;
+             if (std::sscanf(text.c_str(), "%f,%f%n", &at.x, &at.y, &used) != 2 ||
+                 static_cast<std::size_t>(used) != text.size() || !std::isfinite(at.x) || !std::isfinite(at.y))
+               throw CLI::ValidationError("--figure", "'" + text + "' must be east,north in metres, like 12,30.5");
+             o.figures.push_back(at);
+           }
+         },
+         "A walking person 1.75 m high, for scale, in pictures; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("EAST,NORTH");
   add_size(app, o, "Pixels, default 1600x900");
 }
 

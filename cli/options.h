@@ -58,6 +58,7 @@ struct Options {
   ViewKind view = ViewKind::trees;
   std::optional<float> slice_m;
   std::string camera, sun;
+  std::vector<Vec2> figures;  ///< people for scale, plan
   int width = 1600, height = 900;
   /// Pictures of a set share the camera that the first of them found, where neither recipe nor user gives one.
   std::shared_ptr<std::optional<scene::Camera>> set_camera;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/human_figure.h"
 #include "exchange/image_file.h"
 #include "render/framing.h"
 #include "render/headless_context.h"
@@ -14,6 +15,9 @@ namespace {
 
 // Height of the world that a plan shows, with a little margin round the site and its overhanging crowns.
 constexpr float kPlanMargin = 1.06f;
+
+// A person in dark clothes, no more than a measure.
+constexpr Vec4 kWalkerColour{0.10f, 0.105f, 0.12f, 1.0f};
 
 bool from_above(ViewKind view) {
   return view == ViewKind::plan || view == ViewKind::arrows || view == ViewKind::regions;
@@ -31,6 +35,24 @@ render::View plan_view(const scene::Model& model, const Options& options) {
   view.shading = render::Shading::flat;
   view.sky = false;
   return view;
+}
+
+// The model with the people for scale that are asked for.
+scene::Model with_figures(scene::Model model, const scene::Document& document, const Options& options) {
+  scene::Material ink;
+  ink.name = "figure";
+  ink.surface = scene::Surface::obstacle;
+  ink.base_factor = kWalkerColour;
+  model.materials.push_back(std::move(ink));
+  const auto mesh = std::make_shared<const TriangleMesh>(human_figure());
+  for (const Vec2 at : options.figures) {
+    scene::Node node;
+    node.name = "figure";
+    node.translation = to_world(at, document.terrain->ground(at));
+    node.parts.push_back({mesh, model.materials.size() - 1});
+    model.nodes.push_back(std::move(node));
+  }
+  return model;
 }
 
 Result<scene::Sun> chosen_sun(const scene::Document& document, const Options& options) {
@@ -74,6 +96,11 @@ Result<void> check_picture_options(const scene::Document& document, const Option
     if (auto camera = render::camera_from_text(options.camera, cameras); !camera) return camera.error();
   if (!options.sun.empty())
     if (auto sun = chosen_sun(document, options); !sun) return sun.error();
+  const Vec2 size = document.terrain->size_m();
+  for (const Vec2 at : options.figures)
+    if (at.x < 0.0f || at.y < 0.0f || at.x > size.x || at.y > size.y)
+      return Error{fmt::format("--figure {:g},{:g}: lies outside the site, which is {:g} m east by {:g} m north", at.x,
+                               at.y, size.x, size.y)};
   return {};
 }
 
@@ -104,7 +131,10 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   if (!context) return context.error();
   auto renderer = render::Renderer::create();
   if (!renderer) return renderer.error();
-  if (auto uploaded = renderer->upload(model); !uploaded) return uploaded;
+  if (auto uploaded =
+          options.figures.empty() ? renderer->upload(model) : renderer->upload(with_figures(model, document, options));
+      !uploaded)
+    return uploaded;
   auto image = renderer->draw(view);
   if (!image) return image.error();
   return exchange::write_image(target, *image);

@@ -26,7 +26,7 @@ namespace bosquet::geometry {
 enum class TreeForm { mesh, shell, four_cards, two_cards };
 inline constexpr std::array<std::string_view, 4> kTreeFormNames{"mesh", "shell", "four cards", "two cards"};
 
-inline constexpr std::size_t kLeastMeshTriangles = 160;
+inline constexpr std::size_t kLeastMeshTriangles = 400;
 inline constexpr std::size_t kLeastShellTriangles = 48;
 inline constexpr std::size_t kSourceTriangles = 6000;
 

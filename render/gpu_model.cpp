@@ -158,6 +158,7 @@ Result<std::size_t> GpuModel::add_materials(const MaterialLevels& added) {
     out.cutoff = m.mask ? std::clamp(m.alpha_cutoff, 0.01f, 0.99f) : 0.0f;
     out.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
     out.double_sided = m.double_sided;
+    out.whole_trees = m.whole_trees;
     if (out.shader == Shader::ground && !ground_material) ground_material = materials.size() - 1;
   }
   if (auto fits = check_memory(); !fits) return fits.error();

@@ -516,11 +516,12 @@ void Renderer::State::draw_parts(const Program& program, Shader shader, const st
       if (base_factor >= 0) glUniform4fv(base_factor, 1, &m.base_factor[0]);
       // Without a texture only the factor's alpha is left to cut by.
       const float cutoff = m.base_colour ? m.cutoff : 0.0f;
-      if (material_at >= 0) glUniform4f(material_at, m.roughness, cutoff, m.translucency, m.double_sided ? 1.0f : 0.0f);
+      const bool flag = shader == Shader::leaf ? m.whole_trees : m.double_sided;
+      if (material_at >= 0) glUniform4f(material_at, m.roughness, cutoff, m.translucency, flag ? 1.0f : 0.0f);
       if (maps >= 0) glUniform2f(maps, m.base_colour ? 1.0f : 0.0f, m.normal ? 1.0f : 0.0f);
     }
     const GpuMaterial& m = model.materials[current];
-    if (shader != Shader::leaf && shader != Shader::water && !m.double_sided)
+    if (shader != Shader::water && !m.double_sided)
       glEnable(GL_CULL_FACE);
     else
       glDisable(GL_CULL_FACE);

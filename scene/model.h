@@ -31,6 +31,7 @@ struct Material {
   float translucency = 0.0f;  ///< share of the light falling on the back that shines through (leaves)
   bool mask = false;          ///< alpha is tested
   bool double_sided = false;
+  bool whole_trees = false;  ///< shows pictures of trees, whose leaves would shade each other
 };
 
 /// Facts that go along into files: numbers and texts by name, in order.

@@ -250,7 +250,7 @@ std::vector<TreeParts> build_tree_parts(std::span<const TreeOrder> trees, bool l
       material.roughness = 0.8f;
       material.alpha_cutoff = geometry::kImpostorCutoff;
       material.translucency = kImpostorTranslucency;
-      material.mask = true;
+      material.mask = material.whole_trees = true;
       material.double_sided = both_sides;
       materials.push_back(std::move(material));
     }

@@ -25,7 +25,10 @@ refused = 0
 for name in words:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     try:
-        bpy.ops.import_scene.gltf(filepath=name)
+        # "Lighting Mode: Unitless" of the import panel, else the sun's strength is taken for lux; Blender 4 renamed it.
+        known = bpy.ops.import_scene.gltf.get_rna_type().properties.keys()
+        mode = next(k for k in ("export_import_convert_lighting_mode", "convert_lighting_mode") if k in known)
+        bpy.ops.import_scene.gltf(filepath=name, **{mode: "COMPAT"})
     except RuntimeError as error:
         print(f"BOSQUET {name}: refused: {str(error).strip().splitlines()[-1]}")
         refused += 1
@@ -46,8 +49,9 @@ for name in words:
     tree = next((o for o in objects if "species" in o.keys()), None)
     said = {k: tree[k] for k in ("species", "height_m") if k in tree.keys()} if tree else None
     kinds = {kind: sum(o.type == kind for o in objects) for kind in ("CAMERA", "LIGHT")}
+    suns = [round(light.energy, 3) for light in bpy.data.lights]
     print(f"BOSQUET {name}: {len(meshes)} meshes, {triangles} triangles, {len(bpy.data.materials)} materials, "
-          f"{kinds['CAMERA']} cameras, {kinds['LIGHT']} lights, box {[round(x, 2) for x in (*low, *high)]}, tree {said}")
+          f"{kinds['CAMERA']} cameras, {kinds['LIGHT']} lights {suns}, box {[round(x, 2) for x in (*low, *high)]}, tree {said}")
 if picture and refused < len(words):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -58,6 +62,7 @@ if picture and refused < len(words):
     scene.world = bpy.data.worlds.new("sky")
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.6, 0.75, 0.95, 1.0)
+    scene.world.node_tree.nodes["Background"].inputs[1].default_value = 0.6  # beside a sun of strength 3
     camera = next((o for o in objects if o.type == "CAMERA"), None)
     if camera is None:
         camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))

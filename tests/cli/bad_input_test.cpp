@@ -145,6 +145,8 @@ TEST_F(BadInput, NumbersAndWordsOfOptionsAreToldWithWhatIsAllowed) {
                                                        {"--max-triangles -1", "whole number from 0"},
                                                        {"--season winter", "autumn, bare, spring, summer"},
                                                        {"--detail nan", "0.25 to 4"},
+                                                       {"--figure 3m", "east,north in metres"},
+                                                       {"--figure 500,2", "outside the site"},
                                                        {"extra.csv", "extra.csv"}};
   write("extra.csv", "precious");
   for (const auto& [option, said] : lines) {

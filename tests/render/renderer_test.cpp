@@ -300,6 +300,27 @@ TEST_F(RendererTest, LeavesAgainstTheLightShineThrough) {
   EXPECT_GT(shining.g / shining.b, closed.g / closed.b) << "what comes through is yellower";
 }
 
+TEST_F(RendererTest, OneSidedLeavesShowTheirFrontOnly) {
+  // As the cards of far trees, whose back would hide the front of the card on the same place.
+  auto solid = std::make_shared<Image>(4, 4, 4);
+  std::fill(solid->pixels.begin(), solid->pixels.end(), std::uint8_t{255});
+  scene::Model model;
+  test::add_card(model, solid, Vec3(0), 2);
+  const auto dark = [&](float from) {
+    View view = small_view({0, 0, from}, {0, 0, 0});
+    view.shading = Shading::silhouette;
+    int count = 0;
+    middle_of(
+        draw(model, view), [](const Vec3& c) { return c.g < 0.5f; }, &count);
+    return count;
+  };
+  EXPECT_GT(dark(6), 100);
+  EXPECT_GT(dark(-6), 100);
+  model.materials[0].double_sided = false;
+  EXPECT_GT(dark(6), 100);
+  EXPECT_EQ(dark(-6), 0);
+}
+
 TEST_F(RendererTest, WaterMirrorsWhatStandsBehindIt) {
   scene::Model model = test::ground_scene(60);
   for (Vec3& p : std::const_pointer_cast<TriangleMesh>(model.nodes[0].parts[0].mesh)->positions) p.y = -3;
