@@ -95,16 +95,34 @@ void Occupancy::close() {
     return;
   }
   const crowns::CrownRegion& r = *region_;
-  row_.resize(static_cast<std::size_t>(r.cells.x));
-  columns_.clear();
-  for (int i = 0; i < cells_.x; ++i) {
-    const VoxelRange x = touched(at(i, 0), at(i + 1, 0), r.low.x, r.voxel_m, r.cells.x);
-    columns_.push_back(x);
-  }
+  const auto columns = [&](int i) { return touched(at(i, 0), at(i + 1, 0), r.low.x, r.voxel_m, r.cells.x); };
   const auto layers = [&](int j) {
     return touched(std::min(at(j, 1), lid_m_), std::min(at(j + 1, 1), lid_m_), r.low.y, r.layer_m, r.cells.y);
   };
   const auto rows = [&](int k) { return touched(at(k, 2), at(k + 1, 2), r.low.z, r.voxel_m, r.cells.z); };
+
+  // Each row of voxels becomes a row of cells once; cells that touch several take what is closed in all of them.
+  columns_.assign(static_cast<std::size_t>(r.cells.x), {cells_.x, -1});
+  for (int i = 0; i < cells_.x; ++i) {
+    const VoxelRange x = columns(i);
+    for (int a = x.first; a <= x.last; ++a) {
+      VoxelRange& cells = columns_[static_cast<std::size_t>(a)];
+      cells.first = std::min(cells.first, i), cells.last = i;
+    }
+  }
+  rows_.assign(width * static_cast<std::size_t>(r.cells.y) * static_cast<std::size_t>(r.cells.z), kClosed);
+  for (int b = 0; b < r.cells.y; ++b) {
+    for (int c = 0; c < r.cells.z; ++c) {
+      const std::size_t first = r.index({0, b, c});
+      std::uint8_t* row = rows_.data() + width * (static_cast<std::size_t>(b) * static_cast<std::size_t>(r.cells.z) +
+                                                  static_cast<std::size_t>(c));
+      for (std::size_t a = 0; a < columns_.size(); ++a) {
+        if (r.bits[(first + a) >> 6] >> ((first + a) & 63) & 1u) {
+          for (int i = columns_[a].first; i <= columns_[a].last; ++i) row[i] = 0;
+        }
+      }
+    }
+  }
   VoxelRange y_before{0, -2};
   for (int j = ground; j < cells_.y; ++j) {
     std::uint8_t* to = taken_.data() + static_cast<std::size_t>(j) * layer;
@@ -122,17 +140,14 @@ void Occupancy::close() {
         continue;
       }
       z_before = z;
-      std::fill(row_.begin(), row_.end(), std::uint8_t{0});
+      std::memset(to, kClosed, width);
       for (int b = y.first; b <= y.last; ++b) {
         for (int c = z.first; c <= z.last; ++c) {
-          std::size_t bit = r.index({0, b, c});
-          for (std::uint8_t& voxel : row_) voxel |= r.bits[bit >> 6] >> (bit & 63) & 1u, ++bit;
+          const std::uint8_t* row =
+              rows_.data() +
+              width * (static_cast<std::size_t>(b) * static_cast<std::size_t>(r.cells.z) + static_cast<std::size_t>(c));
+          for (std::size_t i = 0; i < width; ++i) to[i] &= row[i];
         }
-      }
-      for (std::size_t i = 0; i < width; ++i) {
-        std::uint8_t open = 0;
-        for (int a = columns_[i].first; a <= columns_[i].last; ++a) open |= row_[static_cast<std::size_t>(a)];
-        to[i] = open ? 0 : kClosed;
       }
     }
   }

@@ -93,8 +93,8 @@ class Occupancy {
   IVec3 cells_{0};
   std::vector<std::uint8_t> taken_, old_;  ///< and kRow more
   std::array<Sphere, 8> spheres_;          ///< by the node's eighth of its cell
-  std::vector<std::uint8_t> row_;          ///< of region voxels
-  std::vector<VoxelRange> columns_;        ///< voxels that each column of cells touches
+  std::vector<std::uint8_t> rows_;         ///< a row of cells for each row of the region's voxels
+  std::vector<VoxelRange> columns_;        ///< cells that touch each column of its voxels
 };
 
 }  // namespace bosquet::growth
