@@ -107,8 +107,9 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
   const IVec3 from = glm::max(IVec3((q - within_m) * inverse_), IVec3(0));
   const IVec3 to = glm::min(IVec3((q + within_m) * inverse_), cells_ - 1);
   const Float4 px = all4(p.x), py = all4(p.y), pz = all4(p.z), cos = all4(cos_);
-  float best2 = within_m * within_m;
-  std::int32_t best = fallback;
+  // Each lane keeps the best that it met; a branch for each bud that is nearer would be guessed wrong too often.
+  Float4 least = all4(within_m * within_m);
+  Int4 best{fallback, fallback, fallback, fallback};
   for (int y = from.y; y <= to.y; ++y) {
     for (int z = from.z; z <= to.z; ++z) {
       const std::size_t row = static_cast<std::size_t>((y * cells_.z + z) * cells_.x);
@@ -120,18 +121,18 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
         const Float4 x = px - load4(&x_[i]), y4 = py - load4(&y_[i]), z4 = pz - load4(&z_[i]);
         const Float4 squares = x * x + y4 * y4 + z4 * z4;
         const Float4 along = x * load4(&along_x_[i]) + y4 * load4(&along_y_[i]) + z4 * load4(&along_z_[i]);
-        const Int4 perceive = (squares <= all4(best2)) & (along >= cos * root(squares));
-        if (!any(perceive)) continue;
-        for (int lane = 0; lane < kLanes; ++lane) {
-          const float square = squares[lane];
-          const std::int32_t bud = bud_[i + static_cast<std::size_t>(lane)];
-          if (!perceive[lane] || square > best2 || (square == best2 && bud >= best)) continue;
-          best2 = square, best = bud;
-        }
+        const Int4 bud = load4(&bud_[i]);
+        const Int4 better = ((squares < least) | ((squares == least) & (bud < best))) & (along >= cos * root(squares));
+        least = better ? squares : least;
+        best = better ? bud : best;
       }
     }
   }
-  return best;
+  int nearest = 0;
+  for (int lane = 1; lane < kLanes; ++lane) {
+    if (least[lane] < least[nearest] || (least[lane] == least[nearest] && best[lane] < best[nearest])) nearest = lane;
+  }
+  return best[nearest];
 }
 
 }  // namespace bosquet::growth
