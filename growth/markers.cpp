@@ -12,6 +12,8 @@ namespace {
 constexpr int kLanes = 4;
 constexpr float kFarAway = 1e15f;
 constexpr std::size_t kFew = 40;
+constexpr float kNarrow = 0.7f;          ///< width of cells, in what buds reach
+constexpr std::size_t kMostCells = 2;  ///< for each bud
 
 }  // namespace
 
@@ -66,17 +68,17 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
   Box3 box;
   for (const Competitor& c : competitors) box.add(c.at);
 
-  // Cells as wide as buds look, or so wide that there are no more of them than buds; few buds are all asked.
+  // Cells so wide that about nine rows are near a place, and not many more than there are buds; few buds are all asked.
   low_ = box.low;
   std::size_t cells = 0;
-  cell_m_ = n <= kFew ? kFarAway : reach_m;
+  cell_m_ = n <= kFew ? kFarAway : kNarrow * reach_m;
   do {
     inverse_ = 1.0f / cell_m_;
     cells_ = IVec3((box.high - box.low) * inverse_) + 1;
     cells =
         static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
     cell_m_ *= 2.0f;
-  } while (cells > n);
+  } while (cells > kMostCells * n);
   cell_m_ *= 0.5f;
 
   // Counting sort by cell; within a cell the order given (by bud) stays.

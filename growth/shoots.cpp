@@ -188,7 +188,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   wood.shed.push_back(kNever);
   wood.light.push_back(1.0f);
   wood.vigor.push_back(buds[b].vigor);
-  tree.internodes.push_back(heading, below, buds[b].order);
+  tree.internodes.push_back(heading, below, buds[b].order, new_axis ? kLateral : kMain);
   if (!new_axis && below >= 0) {
     tree.internodes[static_cast<std::size_t>(below)].next = internode;
     set_lateral_buds(tree, internode, b, g);

@@ -27,14 +27,18 @@ namespace bosquet::growth {
 inline constexpr std::int32_t kNone = -1;
 inline constexpr float kLeastLight = 1.0f / 256.0f;  ///< so that no bud's signal is zero
 
+/// Ways on from an internode's upper end.
+enum Way : std::uint8_t { kMain, kLateral };
+
 /// What a season reads and writes of each standing internode, side by side: half a cache line.
 struct Internode {
   std::int32_t parent = kNone;
   std::int32_t next = kNone;  ///< continuation of the axis
   std::int32_t count = 1;     ///< how many stand on it, itself included, before this season's
   std::uint8_t order = 0;
-  float main_signal = 0, lateral_signal = 0;  ///< Q gathered at the upper end, by way; 0 once vigor is shared
-  float main_vigor = 0, lateral_rate = 0;     ///< v of the main way; v per Q of the lateral ways
+  std::uint8_t way = kLateral;     ///< in which it goes on from its parent
+  std::array<float, 2> signal{};  ///< Q gathered at the upper end, by way; 0 once vigor is shared
+  std::array<float, 2> rate{};    ///< v of the main way; v per Q of the lateral ways
 };
 
 /// Working data of internodes, beside the skeleton's.
@@ -47,9 +51,9 @@ struct Internodes {
   Internode& operator[](std::size_t i) { return each[i]; }
   const Internode& operator[](std::size_t i) const { return each[i]; }
   void clear();
-  void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order) {
+  void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order, Way way) {
     Internode& i = each.emplace_back();
-    i.parent = parent, i.order = order;
+    i.parent = parent, i.order = order, i.way = way;
     first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
   }
 };

@@ -54,7 +54,7 @@ void sense_light(Tree& tree) {
     b.signal = b.factor * (at[0] + (at[1] - at[0]) * (step - static_cast<float>(i)));
     if (b.node < 0) continue;  // a stem's first bud: nothing stands below it
     Internode& node = in[static_cast<std::size_t>(b.node)];
-    (b.state == BudState::terminal ? node.main_signal : node.lateral_signal) += b.signal;
+    node.signal[b.state == BudState::terminal ? kMain : kLateral] += b.signal;
   }
   tree.work.bud_visits += tree.living.size();
 }
@@ -67,36 +67,38 @@ void share_vigor(Tree& tree) {
     if (wood.alive(tree.listed)) tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
   }
 
-  // Down: what buds told their node, every node tells the one below.
+  // Down: what buds told their node, every node tells the one below. No branch depends on which way it stands there.
   for (std::size_t s = tree.standing.size(); s-- > 0;) {
     const Internode& i = in[static_cast<std::size_t>(tree.standing[s])];
     if (i.parent < 0) continue;
     Internode& p = in[static_cast<std::size_t>(i.parent)];
     p.count += i.count;
-    (p.next == tree.standing[s] ? p.main_signal : p.lateral_signal) += i.main_signal + i.lateral_signal;
+    p.signal[i.way] += i.signal[kMain] + i.signal[kLateral];
   }
 
   // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
-  tree.failing.clear();
+  tree.failing.resize(tree.standing.size());
+  std::size_t failing = 0;
   for (const std::int32_t node : tree.standing) {
     Internode& i = in[static_cast<std::size_t>(node)];
     const Habit& habit = tree.habit(i.order);
-    const float main = habit.lambda * i.main_signal, lateral = (1.0f - habit.lambda) * i.lateral_signal;
-    const float q = i.main_signal + i.lateral_signal, sum = main + lateral;
+    const float main = habit.lambda * i.signal[kMain], lateral = (1.0f - habit.lambda) * i.signal[kLateral];
+    const float q = i.signal[kMain] + i.signal[kLateral], sum = main + lateral;
     const float part = sum > 0.0f ? 1.0f / sum : 0.0f;
     float v = q;
     if (i.parent >= 0) {
-      const Internode& p = in[static_cast<std::size_t>(i.parent)];
-      const bool is_main = p.next == node;
-      v = is_main ? p.main_vigor : q * p.lateral_rate;
-      if (!is_main && v < habit.shedding * static_cast<float>(i.count)) tree.failing.push_back(node);
+      const std::array<float, 2> share{1.0f, q};
+      v = in[static_cast<std::size_t>(i.parent)].rate[i.way] * share[i.way];
+      tree.failing[failing] = node;
+      failing += (i.way == kLateral) & (v < habit.shedding * static_cast<float>(i.count));
     }
     wood.vigor[static_cast<std::size_t>(node)] = v;
-    i.main_vigor = v * (main * part);
-    i.lateral_rate = v * ((1.0f - habit.lambda) * part);
-    i.main_signal = i.lateral_signal = 0.0f;
+    i.rate[kMain] = v * (main * part);
+    i.rate[kLateral] = v * ((1.0f - habit.lambda) * part);
+    i.signal = {};
     i.count = 1;
   }
+  tree.failing.resize(failing);
 
   float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {
@@ -104,7 +106,7 @@ void share_vigor(Tree& tree) {
     float v = b.signal;
     if (b.node >= 0) {
       const Internode& node = in[static_cast<std::size_t>(b.node)];
-      v = b.state == BudState::terminal ? node.main_vigor : node.lateral_rate * b.signal;
+      v = b.state == BudState::terminal ? node.rate[kMain] : node.rate[kLateral] * b.signal;
     }
     b.flow = v;
     if (b.claims > 0) greatest = std::max(greatest, v);

@@ -444,7 +444,7 @@ TEST(Grow, VigorLeavingAForkEqualsVigorArriving) {
   int forks = 0;
   for (std::size_t i = tree.wood.size(); i-- > 0;) {
     const double arriving = tree.wood.vigor[i];
-    if (leaving[i] > 1.01 * tree.internodes[i].main_vigor && tree.internodes[i].main_vigor > 0.0f) ++forks;
+    if (leaving[i] > 1.01 * tree.internodes[i].rate[kMain] && tree.internodes[i].rate[kMain] > 0.0f) ++forks;
     EXPECT_NEAR(leaving[i], arriving, 1e-4 * arriving) << "internode " << i;
     if (tree.wood.parent[i] >= 0) leaving[static_cast<std::size_t>(tree.wood.parent[i])] += arriving;
   }
