@@ -13,7 +13,7 @@ constexpr int kLanes = 4;
 constexpr float kFarAway = 1e15f;
 constexpr std::size_t kFew = 40;
 constexpr float kNarrow = 0.7f;          ///< width of cells, in what buds reach
-constexpr std::size_t kMostCells = 2;  ///< for each bud
+constexpr std::size_t kCellsEach = 2;  ///< for each bud
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
     cells =
         static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
     cell_m_ *= 2.0f;
-  } while (cells > kMostCells * n);
+  } while (cells > kCellsEach * n);
   cell_m_ *= 0.5f;
 
   // Counting sort by cell; within a cell the order given (by bud) stays.

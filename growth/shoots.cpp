@@ -190,7 +190,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   wood.vigor.push_back(buds[b].vigor);
   tree.internodes.push_back(heading, below, buds[b].order, new_axis ? kLateral : kMain);
   if (!new_axis && below >= 0) {
-    tree.internodes[static_cast<std::size_t>(below)].next = internode;
+    tree.internodes.next[static_cast<std::size_t>(below)] = internode;
     set_lateral_buds(tree, internode, b, g);
   } else {
     tree.internodes.first_bud.back() = static_cast<std::int32_t>(buds.size());
@@ -214,7 +214,7 @@ bool turns_out(const Tree& tree, std::int32_t first, const Vec3& axis, float sin
   if (!tree.input->region) return false;
   const Skeleton& wood = tree.wood;
   const Vec3 pivot = wood.proximal(static_cast<std::size_t>(first));
-  for (std::int32_t i = first; i >= 0; i = tree.internodes[static_cast<std::size_t>(i)].next) {
+  for (std::int32_t i = first; i >= 0; i = tree.internodes.next[static_cast<std::size_t>(i)]) {
     const Vec3& end = wood.distal[static_cast<std::size_t>(i)];
     if (in_region(tree, end) && !in_region(tree, pivot + turned(end - pivot, axis, sin, cos))) return true;
   }
@@ -234,7 +234,7 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
     buds.side[b] = turned(buds.side[b], axis, sin, cos);
     if (tree.input->light) buds[b].sky = tree.input->light->at(at);
   };
-  for (std::int32_t i = first; i >= 0; i = in[static_cast<std::size_t>(i)].next) {
+  for (std::int32_t i = first; i >= 0; i = in.next[static_cast<std::size_t>(i)]) {
     const auto n = static_cast<std::size_t>(i);
     if (i != first) {
       for (int k = 0; k < in.buds[n]; ++k) {
@@ -249,7 +249,7 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
     tree.occupancy.move(before, wood.distal[n]);
     ++tree.work.shadow_updates;
     tree.height_m = std::max(tree.height_m, wood.distal[n].y);
-    if (in[n].next < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
+    if (in.next[n] < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
   }
 }
 

@@ -56,7 +56,7 @@ void add_stem(Tree& tree, float lean, float azimuth) {
 
 }  // namespace
 
-void Internodes::clear() { each.clear(), first_bud.clear(), buds.clear(), heading.clear(); }
+void Internodes::clear() { each.clear(), next.clear(), first_bud.clear(), buds.clear(), heading.clear(); }
 
 void Buds::clear() { each.clear(), side.clear(), carrier.clear(), axis.clear(), claimed.clear(); }
 

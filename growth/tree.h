@@ -30,20 +30,23 @@ inline constexpr float kLeastLight = 1.0f / 256.0f;  ///< so that no bud's signa
 /// Ways on from an internode's upper end.
 enum Way : std::uint8_t { kMain, kLateral };
 
+/// Lanes of what is gathered at an internode's upper end: Q by way, and how many internodes stand on it, itself included.
+enum Gathered : std::uint8_t { kMainSignal = kMain, kLateralSignal = kLateral, kStanding };
+inline constexpr Float4 kNothingGathered{0.0f, 0.0f, 1.0f, 0.0f};
+
 /// What a season reads and writes of each standing internode, side by side: half a cache line.
-struct Internode {
+struct alignas(32) Internode {
+  Float4 gathered = kNothingGathered;  ///< as that once vigor is shared; the number exact to 2^24
+  std::array<float, 2> rate{};         ///< v of the main way; v per Q of the lateral ways
   std::int32_t parent = kNone;
-  std::int32_t next = kNone;  ///< continuation of the axis
-  std::int32_t count = 1;     ///< how many stand on it, itself included, before this season's
   std::uint8_t order = 0;
-  std::uint8_t way = kLateral;     ///< in which it goes on from its parent
-  std::array<float, 2> signal{};  ///< Q gathered at the upper end, by way; 0 once vigor is shared
-  std::array<float, 2> rate{};    ///< v of the main way; v per Q of the lateral ways
+  std::uint8_t way = kLateral;  ///< in which it goes on from its parent
 };
 
 /// Working data of internodes, beside the skeleton's.
 struct Internodes {
   std::vector<Internode> each;
+  std::vector<std::int32_t> next;       ///< continuation of the axis
   std::vector<std::int32_t> first_bud;  ///< lateral buds at the base: first_bud .. first_bud + buds
   std::vector<std::uint8_t> buds;
   std::vector<Vec3> heading;
@@ -54,7 +57,7 @@ struct Internodes {
   void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order, Way way) {
     Internode& i = each.emplace_back();
     i.parent = parent, i.order = order, i.way = way;
-    first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
+    next.push_back(kNone), first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
   }
 };
 

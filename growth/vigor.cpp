@@ -54,7 +54,7 @@ void sense_light(Tree& tree) {
     b.signal = b.factor * (at[0] + (at[1] - at[0]) * (step - static_cast<float>(i)));
     if (b.node < 0) continue;  // a stem's first bud: nothing stands below it
     Internode& node = in[static_cast<std::size_t>(b.node)];
-    node.signal[b.state == BudState::terminal ? kMain : kLateral] += b.signal;
+    node.gathered[b.state == BudState::terminal ? kMainSignal : kLateralSignal] += b.signal;
   }
   tree.work.bud_visits += tree.living.size();
 }
@@ -68,12 +68,13 @@ void share_vigor(Tree& tree) {
   }
 
   // Down: what buds told their node, every node tells the one below. No branch depends on which way it stands there.
+  constexpr Float4 kTold[2] = {{1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f, 0.0f}};
   for (std::size_t s = tree.standing.size(); s-- > 0;) {
     const Internode& i = in[static_cast<std::size_t>(tree.standing[s])];
     if (i.parent < 0) continue;
-    Internode& p = in[static_cast<std::size_t>(i.parent)];
-    p.count += i.count;
-    p.signal[i.way] += i.signal[kMain] + i.signal[kLateral];
+    const Float4 number{0.0f, 0.0f, i.gathered[kStanding], 0.0f};
+    const float signal = i.gathered[kMainSignal] + i.gathered[kLateralSignal];
+    in[static_cast<std::size_t>(i.parent)].gathered += number + kTold[i.way] * all4(signal);
   }
 
   // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
@@ -82,21 +83,21 @@ void share_vigor(Tree& tree) {
   for (const std::int32_t node : tree.standing) {
     Internode& i = in[static_cast<std::size_t>(node)];
     const Habit& habit = tree.habit(i.order);
-    const float main = habit.lambda * i.signal[kMain], lateral = (1.0f - habit.lambda) * i.signal[kLateral];
-    const float q = i.signal[kMain] + i.signal[kLateral], sum = main + lateral;
+    const float main = habit.lambda * i.gathered[kMainSignal];
+    const float lateral = (1.0f - habit.lambda) * i.gathered[kLateralSignal];
+    const float q = i.gathered[kMainSignal] + i.gathered[kLateralSignal], sum = main + lateral;
     const float part = sum > 0.0f ? 1.0f / sum : 0.0f;
     float v = q;
     if (i.parent >= 0) {
       const std::array<float, 2> share{1.0f, q};
       v = in[static_cast<std::size_t>(i.parent)].rate[i.way] * share[i.way];
       tree.failing[failing] = node;
-      failing += (i.way == kLateral) & (v < habit.shedding * static_cast<float>(i.count));
+      failing += (i.way == kLateral) & (v < habit.shedding * i.gathered[kStanding]);
     }
     wood.vigor[static_cast<std::size_t>(node)] = v;
     i.rate[kMain] = v * (main * part);
     i.rate[kLateral] = v * ((1.0f - habit.lambda) * part);
-    i.signal = {};
-    i.count = 1;
+    i.gathered = kNothingGathered;
   }
   tree.failing.resize(failing);
 
