@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kLanes = 4;
 constexpr float kFarAway = 1e15f;
-constexpr std::size_t kFew = 40;
-constexpr float kNarrow = 0.7f;          ///< width of cells, in what buds reach
-constexpr std::size_t kCellsEach = 2;  ///< for each bud
+constexpr float kWidth = 1.0f, kFlat = 0.25f;  ///< cells, in what buds reach
+constexpr std::size_t kBudsEach = 16;          ///< column, at least, in the mean
+constexpr std::size_t kCellsEach = 4;          ///< bud, at most
 
 }  // namespace
 
@@ -68,25 +68,28 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
   Box3 box;
   for (const Competitor& c : competitors) box.add(c.at);
 
-  // Cells so wide that about nine rows are near a place, and not many more than there are buds; few buds are all asked.
+  // Columns as wide as buds look, or so wide that several buds stand in each; flat cells in them.
   low_ = box.low;
-  std::size_t cells = 0;
-  cell_m_ = n <= kFew ? kFarAway : kNarrow * reach_m;
+  const Vec3 size = box.high - box.low;
+  float width_m = kWidth * reach_m;
+  std::size_t columns = 0;
   do {
-    inverse_ = 1.0f / cell_m_;
-    cells_ = IVec3((box.high - box.low) * inverse_) + 1;
-    cells =
-        static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
-    cell_m_ *= 2.0f;
-  } while (cells > kCellsEach * n);
-  cell_m_ *= 0.5f;
+    inverse_.x = inverse_.z = 1.0f / width_m;
+    cells_.x = static_cast<int>(size.x * inverse_.x) + 1, cells_.z = static_cast<int>(size.z * inverse_.z) + 1;
+    columns = static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.z);
+    width_m *= 1.5f;
+  } while (columns * kBudsEach > std::max(n, kBudsEach));
+  inverse_.y =
+      std::min(1.0f / (kFlat * reach_m), static_cast<float>(kCellsEach * n / columns) / std::max(size.y, reach_m));
+  cells_.y = static_cast<int>(size.y * inverse_.y) + 1;
+  const std::size_t cells = columns * static_cast<std::size_t>(cells_.y);
 
   // Counting sort by cell; within a cell the order given (by bud) stays.
   start_.assign(cells + 1, 0);
   cell_of_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const IVec3 c = glm::min(IVec3((competitors[i].at - low_) * inverse_), cells_ - 1);
-    cell_of_[i] = (c.y * cells_.z + c.z) * cells_.x + c.x;
+    cell_of_[i] = (c.x * cells_.z + c.z) * cells_.y + c.y;
     ++start_[static_cast<std::size_t>(cell_of_[i]) + 1];
   }
   for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
@@ -112,17 +115,17 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
   // Each lane keeps the best that it met; a branch for each bud that is nearer would be guessed wrong too often.
   Float4 least = all4(within_m * within_m);
   Int4 best{fallback, fallback, fallback, fallback};
-  for (int y = from.y; y <= to.y; ++y) {
+  if (from.y > to.y) return fallback;
+  for (int x = from.x; x <= to.x; ++x) {
     for (int z = from.z; z <= to.z; ++z) {
-      const std::size_t row = static_cast<std::size_t>((y * cells_.z + z) * cells_.x);
-      if (from.x > to.x) continue;
-      const auto begin = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(from.x)]);
-      const auto end = static_cast<std::size_t>(start_[row + static_cast<std::size_t>(to.x) + 1]);
+      const std::size_t column = static_cast<std::size_t>((x * cells_.z + z) * cells_.y);
+      const auto begin = static_cast<std::size_t>(start_[column + static_cast<std::size_t>(from.y)]);
+      const auto end = static_cast<std::size_t>(start_[column + static_cast<std::size_t>(to.y) + 1]);
       for (std::size_t i = begin; i < end; i += kLanes) {
         // Lanes past the end are buds of other cells: as good as any.
-        const Float4 x = px - load4(&x_[i]), y4 = py - load4(&y_[i]), z4 = pz - load4(&z_[i]);
-        const Float4 squares = x * x + y4 * y4 + z4 * z4;
-        const Float4 along = x * load4(&along_x_[i]) + y4 * load4(&along_y_[i]) + z4 * load4(&along_z_[i]);
+        const Float4 x4 = px - load4(&x_[i]), y4 = py - load4(&y_[i]), z4 = pz - load4(&z_[i]);
+        const Float4 squares = x4 * x4 + y4 * y4 + z4 * z4;
+        const Float4 along = x4 * load4(&along_x_[i]) + y4 * load4(&along_y_[i]) + z4 * load4(&along_z_[i]);
         const Int4 bud = load4(&bud_[i]);
         const Int4 better = ((squares < least) | ((squares == least) & (bud < best))) & (along >= cos * root(squares));
         least = better ? squares : least;

@@ -63,7 +63,8 @@ class CompetitorIndex {
   std::int32_t nearest(const Vec3& p, float within_m, std::int32_t fallback) const;
 
  private:
-  float cos_ = 0.0f, cell_m_ = 1.0f, inverse_ = 1.0f;
+  float cos_ = 0.0f;
+  Vec3 inverse_{1.0f};  ///< of the size of a cell
   Vec3 low_{0.0f};
   IVec3 cells_{0};
   std::vector<std::int32_t> start_;  ///< by cell, and one past the last
