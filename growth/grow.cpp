@@ -19,6 +19,7 @@ namespace {
 void record_light_and_vigor(Tree& tree) {
   Skeleton& wood = tree.wood;
   tree.work.shadow_cells += tree.shadow.settle();
+  fill_in_vigor(tree);
   for (std::size_t i = 0; i < wood.size(); ++i) {
     if (!wood.alive(i)) continue;
     wood.light[i] = light_at(tree, wood.distal[i]);

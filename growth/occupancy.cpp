@@ -164,6 +164,7 @@ void Occupancy::make_room(IVec3 c) {
   old_.swap(taken_);
   lay_out(first, end - first);
   close();
+  old_.reserve(taken_.capacity());  // the two change places each time
   const IVec3 moved = old_first - first;
   const auto width = static_cast<std::size_t>(old_cells.x);
   const std::uint8_t* from = old_.data();

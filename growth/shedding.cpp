@@ -26,25 +26,28 @@ void fall(Tree& tree, std::size_t i) {
 void shed(Tree& tree) {
   if (tree.failing.empty()) return;
   Skeleton& wood = tree.wood;
-  const auto stands_on_fallen = [&](std::size_t i) {
-    return wood.parent[i] >= 0 && !wood.alive(static_cast<std::size_t>(wood.parent[i]));
-  };
-  // What stands on shed wood falls with it.
+  const auto fallen = [&](std::int32_t i) { return i >= 0 && !wood.alive(static_cast<std::size_t>(i)); };
+  // What stands on shed wood falls with it, and so do the bare internodes below it.
   auto failing = tree.failing.begin();
   std::size_t kept = 0;
   for (const std::int32_t node : tree.standing) {
-    const auto i = static_cast<std::size_t>(node);
     const bool fails = failing != tree.failing.end() && *failing == node;
     failing += fails;
-    if (fails || stands_on_fallen(i)) {
-      fall(tree, i);
-    } else {
+    const std::int32_t below = tree.internodes[static_cast<std::size_t>(node)].parent;
+    if (!fails && !fallen(below)) {
       tree.standing[kept++] = node;
+      continue;
+    }
+    if (!fallen(below)) lose_lateral(tree, below);
+    const float vigor = wood.vigor[static_cast<std::size_t>(node)];
+    for (std::int32_t i = node; i != below; i = wood.parent[static_cast<std::size_t>(i)]) {
+      wood.vigor[static_cast<std::size_t>(i)] = vigor;
+      fall(tree, static_cast<std::size_t>(i));
     }
   }
   tree.standing.resize(kept);
   for (std::size_t i = tree.listed; i < wood.size(); ++i) {
-    if (stands_on_fallen(i)) fall(tree, i);
+    if (fallen(wood.parent[i])) fall(tree, i);
   }
   std::size_t living = 0;
   for (const std::int32_t bud : tree.living) {

@@ -93,6 +93,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   if (p.planar) count = std::min(count, 2);  // a plane has two sides
   tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
   tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
+  tree.internodes.laterals[static_cast<std::size_t>(buds[tip].node)] = static_cast<std::uint8_t>(count);
 
   const float x = shoot_end && g.made == 0
                       ? 1.0f
@@ -191,6 +192,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   tree.internodes.push_back(heading, below, buds[b].order, new_axis ? kLateral : kMain);
   if (!new_axis && below >= 0) {
     tree.internodes.next[static_cast<std::size_t>(below)] = internode;
+    tree.internodes.above[static_cast<std::size_t>(below)] = internode;
     set_lateral_buds(tree, internode, b, g);
   } else {
     tree.internodes.first_bud.back() = static_cast<std::int32_t>(buds.size());
@@ -271,6 +273,7 @@ bool choose_growing(Tree& tree) {
       b.idle = 0;
       tree.growing.push_back({bud, n, 0, b.state == BudState::terminal});
     } else if (++b.idle >= life) {
+      if (b.state == BudState::lateral) lose_lateral(tree, b.node);
       b.state = BudState::dead;
       continue;
     }

@@ -56,7 +56,10 @@ void add_stem(Tree& tree, float lean, float azimuth) {
 
 }  // namespace
 
-void Internodes::clear() { each.clear(), next.clear(), first_bud.clear(), buds.clear(), heading.clear(); }
+void Internodes::clear() {
+  each.clear(), next.clear(), above.clear(), laterals.clear();
+  first_bud.clear(), buds.clear(), heading.clear();
+}
 
 void Buds::clear() { each.clear(), side.clear(), carrier.clear(), axis.clear(), claimed.clear(); }
 
@@ -91,7 +94,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
-  tree.standing.clear(), tree.failing.clear();
+  tree.standing.clear(), tree.thinned.clear(), tree.failing.clear();
   tree.listed = 0;
 
   // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.

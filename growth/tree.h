@@ -32,13 +32,14 @@ enum Way : std::uint8_t { kMain, kLateral };
 
 /// Lanes of what is gathered at an internode's upper end: Q by way, and how many internodes stand on it, itself included.
 enum Gathered : std::uint8_t { kMainSignal = kMain, kLateralSignal = kLateral, kStanding };
-inline constexpr Float4 kNothingGathered{0.0f, 0.0f, 1.0f, 0.0f};
 
-/// What a season reads and writes of each standing internode, side by side: half a cache line.
+/// What a season reads and writes of each standing internode, side by side: half a cache line. One whose lateral buds and
+/// branches are gone is bare: signal and vigor pass it unchanged, so the next one above takes its place.
 struct alignas(32) Internode {
-  Float4 gathered = kNothingGathered;  ///< as that once vigor is shared; the number exact to 2^24
-  std::array<float, 2> rate{};         ///< v of the main way; v per Q of the lateral ways
-  std::int32_t parent = kNone;
+  Float4 gathered{0.0f, 0.0f, 1.0f, 0.0f};  ///< Q 0 and number `span` once vigor is shared; numbers exact to 2^24
+  std::array<float, 2> rate{};              ///< v of the main way; v per Q of the lateral ways
+  std::int32_t parent = kNone;              ///< the next one below that is not bare
+  std::uint16_t span = 1;                   ///< itself and the bare ones just below; 0 when bare
   std::uint8_t order = 0;
   std::uint8_t way = kLateral;  ///< in which it goes on from its parent
 };
@@ -47,6 +48,8 @@ struct alignas(32) Internode {
 struct Internodes {
   std::vector<Internode> each;
   std::vector<std::int32_t> next;       ///< continuation of the axis
+  std::vector<std::int32_t> above;      ///< the same, past bare ones
+  std::vector<std::uint8_t> laterals;   ///< living buds and standing branches at the upper end
   std::vector<std::int32_t> first_bud;  ///< lateral buds at the base: first_bud .. first_bud + buds
   std::vector<std::uint8_t> buds;
   std::vector<Vec3> heading;
@@ -57,7 +60,8 @@ struct Internodes {
   void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order, Way way) {
     Internode& i = each.emplace_back();
     i.parent = parent, i.order = order, i.way = way;
-    next.push_back(kNone), first_bud.push_back(0), buds.push_back(0), heading.push_back(h);
+    next.push_back(kNone), above.push_back(kNone), laterals.push_back(0), first_bud.push_back(0), buds.push_back(0),
+        heading.push_back(h);
   }
 };
 
@@ -144,7 +148,8 @@ struct Tree {
   Buds buds;
   std::vector<std::int32_t> living;    ///< buds, in birth order
   std::vector<std::int32_t> tip_of;    ///< terminal bud by axis
-  std::vector<std::int32_t> standing;  ///< living internodes before this season's, in birth order
+  std::vector<std::int32_t> standing;  ///< living internodes before this season's, in birth order, without bare ones
+  std::vector<std::int32_t> thinned;   ///< internodes that may have become bare
   std::size_t listed = 0;              ///< internodes born before this season
   std::vector<std::int32_t> failing;   ///< of these, where branches begin that have too little vigor
   std::vector<GrowingBud> growing;
@@ -224,6 +229,14 @@ bool choose_growing(Tree& tree);
 void deflect(Tree& tree);
 /// Returns true when an internode passed the final height.
 bool extend(Tree& tree);
+
+/// A lateral bud or branch of an internode is no more.
+inline void lose_lateral(Tree& tree, std::int32_t node) {
+  if (--tree.internodes.laterals[static_cast<std::size_t>(node)] == 0) tree.thinned.push_back(node);
+}
+
+/// Gives bare internodes the vigor that passes them, as last shared.
+void fill_in_vigor(Tree& tree);
 
 /// Takes off branches whose vigor per internode is too small, and their buds (shedding.cpp).
 void shed(Tree& tree);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/scalar.h"
 #include "growth/tree.h"
@@ -20,7 +21,44 @@ namespace {
 constexpr int kLightSteps = 512;         ///< L^kappa is read from a table by linear interpolation
 constexpr std::size_t kMostTables = 64;  ///< kept, so that trees of one species and phase share theirs
 
+/// Lists the internodes born last season.
+void list_standing(Tree& tree) {
+  const Internodes& in = tree.internodes;
+  for (; tree.listed < tree.wood.size(); ++tree.listed) {
+    if (!tree.wood.alive(tree.listed)) continue;
+    tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
+    const Internode& i = in[tree.listed];
+    if (i.parent >= 0 && i.way == kMain && in.laterals[static_cast<std::size_t>(i.parent)] == 0)
+      tree.thinned.push_back(i.parent);
+  }
+}
+
+/// Those that are bare now leave their place to the next one above. They stay listed until the next sweep up.
+void pass_over_bare(Tree& tree) {
+  Internodes& in = tree.internodes;
+  for (const std::int32_t node : tree.thinned) {
+    const auto n = static_cast<std::size_t>(node);
+    const std::int32_t above = in.above[n];
+    if (!tree.wood.alive(n) || above < 0 || static_cast<std::size_t>(above) >= tree.listed) continue;
+    Internode &i = in[n], &heir = in[static_cast<std::size_t>(above)];
+    if (i.span == 0 || i.span + heir.span > std::numeric_limits<std::uint16_t>::max()) continue;
+    heir.span = static_cast<std::uint16_t>(heir.span + i.span), i.span = 0;
+    heir.gathered[kStanding] = heir.span, i.gathered[kStanding] = 0.0f;
+    heir.parent = i.parent, heir.way = i.way;
+    if (i.parent >= 0 && i.way == kMain) in.above[static_cast<std::size_t>(i.parent)] = above;
+  }
+  tree.thinned.clear();
+}
+
 }  // namespace
+
+void fill_in_vigor(Tree& tree) {
+  std::vector<float>& vigor = tree.wood.vigor;
+  for (std::size_t i = tree.listed; i-- > 0;) {
+    if (tree.internodes[i].span > 0 || !tree.wood.alive(i)) continue;
+    vigor[i] = vigor[static_cast<std::size_t>(tree.internodes.next[i])];
+  }
+}
 
 void tabulate_light_response(Tree& tree) {
   std::vector<float>& table = tree.light_response;
@@ -63,9 +101,8 @@ void share_vigor(Tree& tree) {
   Internodes& in = tree.internodes;
   Buds& buds = tree.buds;
   Skeleton& wood = tree.wood;
-  for (; tree.listed < wood.size(); ++tree.listed) {
-    if (wood.alive(tree.listed)) tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
-  }
+  list_standing(tree);
+  pass_over_bare(tree);
 
   // Down: what buds told their node, every node tells the one below. No branch depends on which way it stands there.
   constexpr Float4 kTold[2] = {{1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f, 0.0f}};
@@ -79,9 +116,11 @@ void share_vigor(Tree& tree) {
 
   // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
   tree.failing.resize(tree.standing.size());
-  std::size_t failing = 0;
+  std::size_t failing = 0, kept = 0;
   for (const std::int32_t node : tree.standing) {
     Internode& i = in[static_cast<std::size_t>(node)];
+    if (i.span == 0) continue;
+    tree.standing[kept++] = node;
     const Habit& habit = tree.habit(i.order);
     const float main = habit.lambda * i.gathered[kMainSignal];
     const float lateral = (1.0f - habit.lambda) * i.gathered[kLateralSignal];
@@ -97,9 +136,9 @@ void share_vigor(Tree& tree) {
     wood.vigor[static_cast<std::size_t>(node)] = v;
     i.rate[kMain] = v * (main * part);
     i.rate[kLateral] = v * ((1.0f - habit.lambda) * part);
-    i.gathered = kNothingGathered;
+    i.gathered = Float4{0.0f, 0.0f, static_cast<float>(i.span), 0.0f};
   }
-  tree.failing.resize(failing);
+  tree.failing.resize(failing), tree.standing.resize(kept);
 
   float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {

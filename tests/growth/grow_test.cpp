@@ -436,6 +436,7 @@ TEST(Grow, VigorLeavingAForkEqualsVigorArriving) {
   sense_light(tree);
   compete_for_space(tree);
   share_vigor(tree);
+  fill_in_vigor(tree);
   std::vector<double> leaving(tree.wood.size(), 0.0);  // through the ways that stand on a node
   for (const std::int32_t bud : tree.living) {
     const auto b = static_cast<std::size_t>(bud);
