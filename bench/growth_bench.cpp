@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/stopwatch.h"
@@ -285,3 +286,10 @@ void two_cores(benchmark::State& state) {
 BENCHMARK(two_cores)->Arg(300)->Iterations(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
+
+int main(int argc, char** argv) {
+  bosquet::keep_freed_memory();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

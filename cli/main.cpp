@@ -1,16 +1,13 @@
 // The bosquet command: the only place that turns errors into an exit status.
 #include <fmt/format.h>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 
 #include "cli/commands.h"
+#include "core/heap.h"
 
 namespace {
 
@@ -49,10 +46,7 @@ Result<void> run(const cli::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-#ifdef __GLIBC__
-  // The arrays of meshes come and go, tree by tree: kept, their memory need not be cleared by the system each time.
-  mallopt(M_MMAP_THRESHOLD, 64 << 20), mallopt(M_TRIM_THRESHOLD, 256 << 20);
-#endif
+  bosquet::keep_freed_memory();
   // A file size limit must come back as an error of write(), not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
