@@ -132,7 +132,11 @@ Result<void> constrain_widths(Skeleton& s, std::span<const GivenWidth> widths) {
   }
   std::vector<float> exponent(widths.size() + 1, s.pipe_exponent);
   for (std::size_t k = 0; k < widths.size(); ++k) {
-    const Result<double> n = solve_exponent(meeting[k + 1], static_cast<double>(widths[k].diameter_m));
+    // Between two widths of one internode in pieces no pipe begins: then they are the same and every exponent will do.
+    const std::vector<Widths>& meets = meeting[k + 1];
+    const auto width = static_cast<double>(widths[k].diameter_m);
+    if (meets.size() == 2 && meets[0].count == 0.0 && meets[1].diameter_m == width) continue;
+    const Result<double> n = solve_exponent(meets, width);
     if (!n) return Error{"internode " + std::to_string(widths[k].internode) + ": " + n.error().message};
     exponent[k + 1] = static_cast<float>(*n);
   }
