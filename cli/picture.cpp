@@ -17,7 +17,7 @@ namespace {
 constexpr float kPlanMargin = 1.06f;
 
 // A person in dark clothes, no more than a measure.
-constexpr Vec4 kWalkerColour{0.10f, 0.105f, 0.12f, 1.0f};
+constexpr Vec4 kWalkerColour{0.045f, 0.047f, 0.055f, 1.0f};
 
 bool from_above(ViewKind view) {
   return view == ViewKind::plan || view == ViewKind::arrows || view == ViewKind::regions;
