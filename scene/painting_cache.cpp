@@ -20,7 +20,7 @@ constexpr std::uint32_t kMostImages = 16, kMostSide = 8192;
 constexpr std::uint64_t kMostFileBytes = std::uint64_t{256} << 20;
 constexpr const char* kEnding = ".pixels";
 
-std::uint64_t checksum(const char* bytes, std::size_t n) {
+std::uint64_t checksum_of(const char* bytes, std::size_t n) {
   Hasher hash;
   hash.add(std::uint64_t{n});
   for (; n >= 8; bytes += 8, n -= 8) {
@@ -65,7 +65,7 @@ std::optional<std::vector<Image>> images_of(const std::string& file) {
   if (file.size() < kHeadBytes || std::memcmp(file.data(), kMagic, kMagicBytes) != 0) return {};
   std::uint64_t sum;
   std::memcpy(&sum, file.data() + kMagicBytes, 8);
-  if (sum != checksum(file.data() + kHeadBytes, file.size() - kHeadBytes)) return {};
+  if (sum != checksum_of(file.data() + kHeadBytes, file.size() - kHeadBytes)) return {};
   Reader in(file.data() + kHeadBytes, file.data() + file.size());
   const auto count = in.number();
   if (!count || *count > kMostImages) return {};
@@ -94,7 +94,7 @@ std::optional<std::string> whole_file(const fs::path& path) {
 
 }  // namespace
 
-fs::path PaintingCache::file(std::uint64_t key) const { return folder_ / (hex_digits(key) + kEnding); }
+fs::path PaintingCache::file(std::uint64_t key) const { return folder_ / (bosquet::hex_digits(key) + kEnding); }
 
 std::optional<std::vector<Image>> PaintingCache::find(std::uint64_t key) const {
   if (folder_.empty()) return {};
@@ -116,7 +116,7 @@ void PaintingCache::store(std::uint64_t key, const std::vector<Image>& images) c
     for (const int n : {image.width, image.height, image.channels}) put(bytes, static_cast<std::uint32_t>(n));
     bytes.append(reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size());
   }
-  const std::uint64_t sum = checksum(bytes.data() + kHeadBytes, bytes.size() - kHeadBytes);
+  const std::uint64_t sum = checksum_of(bytes.data() + kHeadBytes, bytes.size() - kHeadBytes);
   std::memcpy(bytes.data() + kMagicBytes, &sum, 8);
 
   std::error_code ignored;
