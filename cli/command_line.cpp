@@ -307,11 +307,11 @@ ParsedLine parse_command_line(int argc, char** argv) {
   window->add_option("--scale", o.window_scale, "Size of text and buttons, 0.5 to 4; default: the screen's")
       ->check(within(0.5, 4.0))
       ->option_text("X");
-  add_size(window, o, "Pixels of the window, default 1440x900");
+  add_size(window, o, "Pixels of the window, default 1440x900 or what the screen has room for");
   add_threads(window, o);
   window->callback([&, window] {
     o.command = Command::ui;
-    if (window->count("--size") == 0) o.width = 1440, o.height = 900;
+    o.window_size_given = window->count("--size") > 0;
   });
 
   try {

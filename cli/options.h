@@ -71,6 +71,7 @@ struct Options {
   // Window.
   std::filesystem::path script, screenshot, window_state;
   float window_scale = 0;  ///< 0: the screen's
+  bool window_size_given = false;  ///< else the window chooses its own
 
   // Calibration and gallery.
   std::vector<float> ages;

@@ -17,7 +17,7 @@ Result<void> run_ui(const Options& options) {
   run.report = options.report;
   run.state = options.window_state;
   run.scale = options.window_scale;
-  run.size = {options.width, options.height};
+  if (options.window_size_given) run.size = {options.width, options.height};
   run.threads = options.threads;
   return ui::run_window(run);
 }

@@ -165,6 +165,19 @@ Result<std::size_t> GpuModel::add_materials(const MaterialLevels& added) {
   return first;
 }
 
+Result<void> GpuModel::replace_colour(std::size_t material, const MaterialLevels& by) {
+  const TextureUse wanted = colour_use(by.materials.front());
+  const auto use = std::find(by.uses.begin(), by.uses.end(), wanted);
+  GLuint& name = materials[material].base_colour;
+  const auto old = std::find_if(textures.begin(), textures.end(), [&](const GlTexture& t) { return t.name() == name; });
+  if (use == by.uses.end() || old == textures.end()) return Error{"no picture to replace"};
+  forget_gl_errors();
+  *old = upload_chain(by.chains[static_cast<std::size_t>(use - by.uses.begin())], use->kind == TextureKind::colour,
+                      use->anisotropic);
+  name = old->name();
+  return check_memory();
+}
+
 // The place of a mesh, copied unless it is there.
 std::size_t GpuModel::mesh_of(const std::shared_ptr<const TriangleMesh>& mesh) {
   const auto found = mesh_index_.find(mesh.get());

@@ -72,6 +72,8 @@ struct GpuModel {
   static Result<GpuModel> make(const scene::Model& model);
 
   Result<std::size_t> add_materials(const MaterialLevels& added);
+  /// Puts another picture in place of a material's own.
+  Result<void> replace_colour(std::size_t material, const MaterialLevels& by);
   /// Sets the node with a key above 0.
   Result<void> put(std::uint64_t key, const scene::Node& node);
   void remove(std::uint64_t key);

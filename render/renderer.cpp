@@ -179,6 +179,11 @@ Result<std::size_t> Renderer::add_materials(const MaterialLevels& materials) {
   return state_->model.add_materials(materials);
 }
 
+Result<void> Renderer::replace_colour(std::size_t material, const MaterialLevels& by) {
+  ++state_->scene_count;
+  return state_->model.replace_colour(material, by);
+}
+
 Result<void> Renderer::put(std::uint64_t key, const scene::Node& node) {
   ++state_->scene_count;
   return state_->model.put(key, node);

@@ -52,6 +52,8 @@ class Renderer {
 
   /// Adds materials (render/texture_levels.h) behind those that are there; the index of the first one.
   Result<std::size_t> add_materials(const MaterialLevels& materials);
+  /// Puts the colours of the first of `by` in place of those of a material that has some.
+  Result<void> replace_colour(std::size_t material, const MaterialLevels& by);
   /// Sets the node with a key, in place of an earlier one with it; its materials must be there.
   Result<void> put(std::uint64_t key, const scene::Node& node);
   /// Takes the node with a key away, if there is one.

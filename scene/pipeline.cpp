@@ -77,10 +77,11 @@ std::size_t TreeMeshes::bytes() const {
   return sizeof *this + of(branches) + of(leaves);
 }
 
-std::size_t triangles_seen(float height_m, float distance_m) {
+std::size_t triangles_seen(float height_m, float distance_m, float fineness) {
   std::size_t triangles = kNearestTriangles;
   for (float d = height_m; d < distance_m && triangles > kFarthestTriangles; d *= 2.0f) triangles /= 3;
-  return std::max(triangles, kFarthestTriangles);
+  const auto wanted = static_cast<std::size_t>(fineness * static_cast<float>(triangles));
+  return std::clamp(wanted, kFarthestTriangles, kMostTriangles);
 }
 
 struct Pipeline::State {
@@ -252,7 +253,7 @@ struct Pipeline::State {
       const float height = document->mature_height_m(tree);
       const Vec3 base = base_of(tree);
       const float distance = glm::length(base + 0.5f * height * kUp - job.view.eye);
-      const std::size_t triangles = triangles_seen(height, distance);
+      const std::size_t triangles = triangles_seen(height, distance, job.options.fineness);
       if (job.options.meshes && record.triangles != triangles) record.dirty = true;
       if (record.dirty) tasks.push_back({index, &tree, &record, base, distance, triangles});
       ++index;

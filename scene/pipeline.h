@@ -9,7 +9,7 @@
 // Decision  everything derived is found again by a hash of what it was made from: skeletons in a SkeletonCache, meshes in
 //           a cache of their own. Both keep to their share of memory; what was used longest ago goes first
 // Decision  a mesh has as many triangles as the view needs, in levels: kNearestTriangles for a tree that is as high as
-//           its distance or nearer, a third of that for each doubling of the distance
+//           its distance or nearer, a third of that for each doubling of the distance, more where `fineness` asks for it
 // Decision  trees to be removed are not grown, and take no room
 // Holds     the scene that grow_scene() makes of the last snapshot, bit for bit, once idle() is true, whatever came before
 // Threads   all members may be called from any thread; the work runs at nice 10 (core/background.h)
@@ -31,7 +31,7 @@
 
 namespace bosquet::scene {
 
-inline constexpr std::size_t kNearestTriangles = 60'000, kFarthestTriangles = 240;
+inline constexpr std::size_t kNearestTriangles = 60'000, kFarthestTriangles = 240, kMostTriangles = 150'000;
 
 struct PipelineOptions {
   SpaceStages stages;
@@ -43,6 +43,7 @@ struct PipelineOptions {
   int threads = 0;  ///< 0: one per core
   std::size_t skeleton_bytes = SkeletonCache::kDefaultBytes;
   std::size_t mesh_bytes = std::size_t{512} << 20;
+  float fineness = 1.0f;  ///< times the usual triangles, up to kMostTriangles a tree
 };
 
 /// From where the scene is looked at.
@@ -114,6 +115,6 @@ class Pipeline {
 };
 
 /// Triangles for a tree of `height_m` seen from `distance_m`.
-std::size_t triangles_seen(float height_m, float distance_m);
+std::size_t triangles_seen(float height_m, float distance_m, float fineness = 1.0f);
 
 }  // namespace bosquet::scene

@@ -131,6 +131,10 @@ Edited set_cameras(const Document& document, SharedList<Camera> cameras) {
 Edited set_place(const Document& document, const Georeference& place) {
   return changed(document, "Change place", [&](Document& d) { d.place = place; });
 }
+Edited set_underlay(const Document& document, const Underlay& underlay) {
+  return changed(document, underlay.file.empty() ? "Remove plan picture" : "Place plan picture",
+                 [&](Document& d) { d.underlay = underlay; });
+}
 Edited set_max_triangles(const Document& document, std::size_t max_triangles) {
   return changed(document, "Change triangle budget", [&](Document& d) { d.max_triangles = max_triangles; });
 }

@@ -24,6 +24,7 @@ Edited set_sun(const Document& document, const Sun& sun);
 Edited set_cameras(const Document& document, SharedList<Camera> cameras);
 Edited set_place(const Document& document, const Georeference& place);
 Edited set_max_triangles(const Document& document, std::size_t max_triangles);
+Edited set_underlay(const Document& document, const Underlay& underlay);
 Edited set_seed(const Document& document, std::uint64_t seed);
 
 Result<Edited> set_space(const Document& document, const crowns::SpaceOptions& space);

@@ -195,6 +195,33 @@ Result<Edited> remove_obstacle(const Document& document, std::int32_t id) {
   return edited;
 }
 
+Result<Edited> add_hero(const Document& document, HeroTree hero) {
+  if (!terrain::on_site(*document.terrain, hero.at))
+    return Error{fmt::format("({:.1f}, {:.1f}) lies off the site", hero.at.x, hero.at.y)};
+  if (!hero.skeleton || hero.skeleton->size() == 0) return Error{fmt::format("'{}' has no wood", hero.name)};
+  Edited edited;
+  edited.document = document;
+  edited.name = fmt::format("Place '{}'", hero.name);
+  hero.id = edited.document.next_standing_id--;
+  edited.document.heroes.push_back(std::move(hero));
+  return edited;
+}
+
+Result<Edited> turn_hero(const Document& document, std::int32_t id, float scale, float rotation_deg) {
+  const std::size_t at = place_of(document.heroes, id);
+  if (at == document.heroes.size()) return Error{fmt::format("there is no hero tree {}", id)};
+  constexpr float kLeast = 0.02f, kMost = 10.0f;  // as recipes allow
+  if (!(scale >= kLeast && scale <= kMost))
+    return Error{fmt::format("a scale of {:g} is not between {:g} and {:g}", scale, kLeast, kMost)};
+  Edited edited;
+  edited.document = document;
+  HeroTree hero = document.heroes[at];
+  hero.skeleton = std::make_shared<const growth::Skeleton>(placed(*hero.skeleton, scale, rotation_deg));
+  edited.name = fmt::format("{} '{}'", scale == 1.0f ? "Turn" : "Scale", hero.name);
+  edited.document.heroes.replace(at, std::move(hero));
+  return edited;
+}
+
 Result<Edited> move_hero(const Document& document, std::int32_t id, Vec2 to) {
   const std::size_t at = place_of(document.heroes, id);
   if (at == document.heroes.size()) return Error{fmt::format("there is no hero tree {}", id)};

@@ -46,6 +46,10 @@ Result<Edited> add_building(const Document& document, std::string name, Polygon 
 Result<Edited> add_obstacle(const Document& document, Obstacle obstacle, Displaced displaced = Displaced::stay);
 Result<Edited> remove_obstacle(const Document& document, std::int32_t id);
 
+/// A hero tree; its id is given here.
+Result<Edited> add_hero(const Document& document, HeroTree hero);
+/// Enlarges it and turns it about its foot, counter-clockwise seen from above.
+Result<Edited> turn_hero(const Document& document, std::int32_t id, float scale, float rotation_deg);
 Result<Edited> move_hero(const Document& document, std::int32_t id, Vec2 to);
 Result<Edited> remove_hero(const Document& document, std::int32_t id);
 

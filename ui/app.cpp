@@ -10,6 +10,7 @@
 #include "core/letters.h"
 #include "ui/panels/panels.h"
 #include "ui/pick.h"
+#include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
 namespace {
@@ -22,6 +23,8 @@ constexpr double kToast_s = 6;
 constexpr float kYearsPerSecond = 6;
 constexpr int kMostPasses = 200;
 constexpr double kPass_s = 1e-3;
+constexpr std::size_t kTrianglesByCard = 6'000'000, kTrianglesBySoftware = 1'200'000;
+constexpr float kFinest = 8;
 
 }  // namespace
 
@@ -91,7 +94,23 @@ std::string App::question() const {
   return show_export_ ? "export" : "";
 }
 
-bool App::settled() const { return session_->pipeline().idle() && view_->settled() && !export_.running(); }
+bool App::settled() const {
+  return session_->pipeline().idle() && view_->settled() && !export_.running() &&
+         finer() == session_->growth().fineness;
+}
+
+// How fine the trees are best drawn, once all have grown: twice as fine while the picture has room for the triangles,
+// coarser again where there came to be too many.
+float App::finer() const {
+  const float now = session_->growth().fineness;
+  const std::size_t triangles = view_->triangles();
+  const std::size_t room = render::draws_by_software() ? kTrianglesBySoftware : kTrianglesByCard;
+  const bool gains = refined_revision_ != session_->revision() || 5 * triangles > 6 * coarser_triangles_;
+  if (view_->grown_trees() == 0) return now;
+  if (2 * triangles <= room && now < kFinest && gains) return 2.0f * now;
+  if (2 * triangles > 3 * room && now > 1.0f) return 0.5f * now;
+  return now;
+}
 
 void App::say(std::string message) {
   toast_ = std::move(message);
@@ -173,6 +192,7 @@ bool App::shortcut(const Event& e) {
       case 'A': {
         std::vector<std::int32_t> all;
         for (const scene::Tree& tree : *s.document()->trees) all.push_back(tree.id);
+        for (const scene::HeroTree& hero : s.document()->heroes) all.push_back(hero.id);
         s.select(std::move(all));
         return true;
       }
@@ -223,6 +243,11 @@ bool App::shortcut(const Event& e) {
           const float h = s.document()->mature_height_m(*tree);
           box.add(foot - Vec3(0.4f * h, 0, 0.4f * h));
           box.add(foot + Vec3(0.4f * h, h, 0.4f * h));
+        } else if (const scene::HeroTree* hero = find_hero(*s.document(), id)) {
+          const Vec3 foot = to_world(hero->at, s.document()->terrain->ground(hero->at));
+          const HeroExtent reach = extent_of(*hero->skeleton);
+          box.add(foot - Vec3(reach.radius_m, 0, reach.radius_m));
+          box.add(foot + Vec3(reach.radius_m, reach.height_m, reach.radius_m));
         }
       s.rig.frame(box.empty() ? site : box, aspect);
       s.rig.keep_above(*s.document()->terrain);
@@ -338,11 +363,31 @@ void App::draw_overlays() {
   constexpr std::size_t kMostRings = 400;
   std::size_t rings = 0;
   for (const std::int32_t id : session_->selection()) {
+    if (++rings > kMostRings) break;
+    if (const scene::HeroTree* hero = find_hero(document, id)) {
+      const float reach = extent_of(*hero->skeleton).radius_m;
+      ring(hero->at, reach, dark, 4.0f * scale_);
+      ring(hero->at, reach, green, 2.0f * scale_);
+    }
     const scene::Tree* tree = document.trees->find(id);
-    if (!tree || ++rings > kMostRings) continue;
+    if (!tree) continue;
     const float radius = 0.5f * tree->scale_width * document.species_of(*tree).shape.crown_width_m;
     ring(tree->at, radius, dark, 4.0f * scale_);
     ring(tree->at, radius, tree->locked ? IM_COL32(230, 180, 90, 255) : green, 2.0f * scale_);
+  }
+
+  // Density is seen while it is painted: dots where fewer trees are planted.
+  if (session_->tool_kind() == ToolKind::density) {
+    constexpr float kAcross = 90;
+    const Vec2 size = document.terrain->size_m();
+    const float step = std::max(size.x, size.y) / kAcross;
+    for (float north = 0.5f * step; north < size.y; north += step)
+      for (float east = 0.5f * step; east < size.x; east += step) {
+        const float thin = 1.0f - document.terrain->density.at({east, north});
+        if (thin < 0.02f) continue;
+        if (const auto p = place(on_ground({east, north})))
+          draw->AddCircleFilled(*p, (1.0f + 2.0f * thin) * scale_, IM_COL32(235, 150, 60, 220), 8);
+      }
   }
 
   const Preview preview = session_->tool().preview(scene);
@@ -352,7 +397,8 @@ void App::draw_overlays() {
     ring(preview.ring->centre, preview.ring->radius_m, bright, 1.6f * scale_);
     if (tool_info(session_->tool_kind()).has_radius)
       if (const auto p = place(on_ground(preview.ring->centre + Vec2(preview.ring->radius_m, 0.0f))))
-        draw->AddText({p->x + 6, p->y}, bright, fmt::format("{:.1f} m", preview.ring->radius_m).c_str());
+        draw->AddText({p->x + 6 * scale_, p->y}, bright,
+                      length_words(preview.ring->radius_m, session_->settings.units).c_str());
   }
   std::vector<ImVec2> line;
   for (Vec2 p : preview.line)
@@ -401,9 +447,19 @@ void App::frame(const FrameInput& in) {
     pass(in, {}, kPass_s);
   }
 
-  if (time_s_ - moved_s_ > kRests_s) session_->look_from_here();
+  if (time_s_ - moved_s_ > kRests_s) {
+    session_->look_from_here();
+    // Near trees first, then all of them finer.
+    if (session_->pipeline().idle() && view_->settled())
+      if (const float fineness = finer(); fineness != session_->growth().fineness) {
+        coarser_triangles_ = fineness > session_->growth().fineness ? view_->triangles() : 0;
+        refined_revision_ = session_->revision();
+        session_->set_fineness(fineness);
+      }
+  }
   thumbnails_->collect();
   view_->update(*session_);
+  if (!view_->problem.empty()) say(std::exchange(view_->problem, {}));
   view_->draw(*session_, IVec2(view_size_), time_s_ - moved_s_ < kMoving_s, in.time_s);
   ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(view_->texture())),
                                            {view_low_.x, view_low_.y},
@@ -451,7 +507,6 @@ void App::pass(const FrameInput& in, std::span<const Event> fresh, double passed
   if (playing_) {
     year_ += kYearsPerSecond * static_cast<float>(passed_s);
     if (year_ > 100.0f) playing_ = false, year_ = 100.0f;
-    all_grown_ = false;
     session_->set_year(year_);
   }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "render/sun_position.h"
 #include "ui/events.h"
 #include "ui/export_job.h"
 #include "ui/file_chooser.h"
@@ -90,6 +91,7 @@ class App {
   void run_guarded(std::function<void()> then, Ask why);
   void open_file(const std::filesystem::path& file);
   void say(std::string message);
+  float finer() const;
   void draw_overlays();
 
   std::unique_ptr<Session> session_;
@@ -105,6 +107,8 @@ class App {
   Button held_ = Button::none;  ///< pressed over the scene
   bool camera_drag_ = false;
   double moved_s_ = -10, time_s_ = 0;
+  std::size_t coarser_triangles_ = 0;  ///< before the last refinement of the scene as it is
+  std::uint64_t refined_revision_ = 0;
   std::vector<int> keys_down_;
 
   std::string toast_;
@@ -115,12 +119,14 @@ class App {
   bool show_history_ = false, show_export_ = false, show_shortcuts_ = false;
   int overlay_step_ = -1;  ///< of the first-run overlay; below 0: not shown
   bool playing_ = false;
-  float year_ = 100;
-  bool all_grown_ = true;
+  float year_ = 30;                           ///< that the slider was set to last
+  render::DateTime when_{2026, 6, 21, 15.0};  ///< that the sun was set to last
+  bool sun_is_down_ = false;                  ///< at that time
 
   FileChooser chooser_;
   ExportJob export_;
   ExportSettings export_settings_;
+  ExportProbe export_probe_;
   SchematicTree schematic_;
   std::uint64_t inspector_drag_ = 0;
   std::vector<std::filesystem::path> recent_;

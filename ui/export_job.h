@@ -1,14 +1,17 @@
 // Export job: the grown scene written to a file in the background, told beforehand how large it will be.
 //
-// Model     the trees are those that the pipeline has grown; meshes are built within the triangle budget and written by
-//           exchange/. Presets are what other programs open: everything (plain), Blender (plain), Unreal and Unity (plain
-//           with levels of detail), web (instanced and packed)
+// Model     the trees are those that the pipeline has grown. A scene: meshes are built within the triangle budget; presets
+//           are what other programs open: everything (plain), Blender (plain), Unreal and Unity (plain with levels of
+//           detail), web (instanced and packed). Plans, lists and maps of the trees are what the command makes of them
+// Size      a scene's follows from its triangles and images, by what the examples took; the others are so quickly made
+//           that they are written to a temporary file, measured and removed
 // Errors    what could not be written, as one message
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -26,7 +29,15 @@ namespace bosquet::ui {
 enum class ExportPreset { everything, blender, engines, web };
 inline constexpr std::array<std::string_view, 4> kExportPresetNames{"Everything", "Blender", "Unreal / Unity", "Web"};
 
+enum class ExportKind { scene, plan_picture, plan_drawing, plan_cad, schedule, species, map, web_map, recipe };
+struct ExportKindInfo {
+  std::string_view name, ending, meaning;
+};
+const ExportKindInfo& export_kind(ExportKind kind);
+inline constexpr int kExportKinds = 9;
+
 struct ExportSettings {
+  ExportKind kind = ExportKind::scene;
   ExportPreset preset = ExportPreset::everything;
   int max_triangles = 2'000'000;
 };
@@ -40,11 +51,33 @@ struct ExportSize {
 /// What an export would come to, from the trees as grown.
 ExportSize estimate(const scene::GrownScene& scene, const ExportSettings& settings);
 
+/// Writes anything but a scene, by the file's ending; the bytes written, of all files that belong to it.
+Result<std::uint64_t> write_sheet(const scene::GrownScene& scene, const std::string& name,
+                                  const std::filesystem::path& target);
+
+/// How large a plan, list or map will be, found out in the background.
+class ExportProbe {
+ public:
+  /// Asks for what has the number `of`, unless that was asked for last.
+  void ask(std::uint64_t of, ExportKind kind, const std::function<scene::GrownScene()>& scene, const std::string& name);
+  /// A sentence: how large it will be, or why it cannot be; empty while it is found out.
+  const std::string& words();
+
+ private:
+  std::uint64_t asked_ = 0;
+  std::future<std::string> coming_;
+  std::string words_;
+};
+
+/// "12.3 MB", "45 kB".
+std::string bytes_words(std::uint64_t bytes);
+
 class ExportJob {
  public:
   ~ExportJob();
   /// Begins to write; one at a time.
-  void start(scene::GrownScene scene, const ExportSettings& settings, std::filesystem::path target);
+  void start(scene::GrownScene scene, const std::string& name, const ExportSettings& settings,
+             std::filesystem::path target);
   bool running() const { return done_.valid(); }
   float share() const;
   const char* stage() const { return progress_ ? progress_->stage() : ""; }

@@ -60,8 +60,9 @@ void FileChooser::list() {
     std::error_code ignored;
     const bool folder = it->is_directory(ignored);
     if (name.starts_with('.')) continue;
-    if (!folder && !endings_.empty() &&
-        std::find(endings_.begin(), endings_.end(), folded_letters(it->path().extension().string())) == endings_.end())
+    if (!folder && !endings_.empty() && std::none_of(endings_.begin(), endings_.end(), [&](const std::string& ending) {
+          return folded_letters(name).ends_with(ending);
+        }))
       continue;
     entries_.push_back({name, folder, folder ? 0 : it->file_size(ignored)});
   }

@@ -7,8 +7,11 @@
 
 #include "exchange/elevation.h"
 #include "exchange/ground_recipe.h"
+#include "exchange/image_file.h"
 #include "exchange/obstacle_import.h"
+#include "exchange/tree_file.h"
 #include "exchange/tree_import.h"
+#include "scene/settings_edits.h"
 #include "scene/site_edits.h"
 
 namespace bosquet::ui {
@@ -74,7 +77,37 @@ Result<scene::Edited> import_buildings(const scene::Document& document, const st
   return edit;
 }
 
+Result<scene::Edited> import_underlay(const scene::Document& document, const std::filesystem::path& file) {
+  if (auto image = exchange::read_image(file); !image) return image.error();
+  scene::Underlay underlay;
+  underlay.file = std::filesystem::absolute(file).lexically_normal().string();
+  underlay.width_m = document.terrain->size_m().x;
+  scene::Edited edit = scene::set_underlay(document, underlay);
+  edit.notes.push_back("it is as wide as the site; its width and corner are on the right");
+  return edit;
+}
+
 }  // namespace
+
+Result<HeroInHand> read_hero(const scene::Document& document, const std::filesystem::path& file) {
+  auto saved = exchange::read_tree(file);
+  if (!saved) return saved.error();
+  HeroInHand hero;
+  // NAME of NAME.tree.json
+  hero.name = file.stem().stem().string();
+  hero.key = saved->key;
+  for (const auto& species : document.species)
+    if (species->name == saved->species) hero.species = species;
+  if (!hero.species) {
+    auto known = scene::builtin_species(saved->species);
+    if (!known)
+      return Error{fmt::format("{}: it is of the species '{}', which this document does not have", file.string(),
+                               saved->species)};
+    hero.species = std::make_shared<const scene::Species>(std::move(*known));
+  }
+  hero.skeleton = std::make_shared<const growth::Skeleton>(std::move(saved->skeleton));
+  return hero;
+}
 
 std::vector<std::string> import_endings(ImportKind kind) {
   switch (kind) {
@@ -82,6 +115,8 @@ std::vector<std::string> import_endings(ImportKind kind) {
       return {".tif", ".tiff", ".asc", ".png", ".hgt", ".vrt"};
     case ImportKind::trees:
       return {".csv", ".geojson", ".gpkg", ".shp", ".dxf"};
+    case ImportKind::underlay:
+      return {".png", ".jpg", ".jpeg"};
     case ImportKind::buildings:
       return {".geojson", ".gpkg", ".shp", ".dxf", ".glb", ".gltf", ".obj"};
   }
@@ -94,6 +129,8 @@ Result<scene::Edited> import_file(const scene::Document& document, ImportKind ki
       return import_ground(document, file);
     case ImportKind::trees:
       return import_trees(document, file);
+    case ImportKind::underlay:
+      return import_underlay(document, file);
     case ImportKind::buildings:
       break;
   }

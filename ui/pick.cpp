@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/tools/standing_edits.h"
+
 namespace bosquet::ui {
 namespace {
 
@@ -91,6 +93,17 @@ std::optional<std::int32_t> tree_hit(const scene::Document& document, const Sigh
           trunk_hit(ray, foot, 0.5f * tree.scale_width * shape.trunk_width_m, base + half)})
       if (t > 0.0f && t < nearest) nearest = t, hit = tree.id;
   }
+  for (const scene::HeroTree& hero : document.heroes) {
+    const HeroExtent extent = extent_of(*hero.skeleton);
+    const Vec3 foot = to_world(hero.at, document.terrain->ground(hero.at));
+    // A crown over the upper two thirds.
+    const float base = extent.height_m / 3.0f, half = 0.5f * (extent.height_m - base);
+    const float trunk = hero.skeleton->size() > 0 ? hero.skeleton->radius[0] : 0.0f;
+    for (const float t :
+         {ellipsoid_hit(ray, foot + Vec3(0, base + half, 0), std::max(0.05f, extent.radius_m), std::max(0.05f, half)),
+          trunk_hit(ray, foot, trunk, extent.height_m)})
+      if (t > 0.0f && t < nearest) nearest = t, hit = hero.id;
+  }
   return hit;
 }
 
@@ -101,6 +114,10 @@ std::vector<std::int32_t> trees_inside(const scene::Document& document, const Ca
   for (const scene::Tree& tree : *document.trees) {
     const auto seen = rig.project(to_world(tree.at, document.terrain->ground(tree.at)), view_size);
     if (seen && inside(outline, *seen)) ids.push_back(tree.id);
+  }
+  for (const scene::HeroTree& hero : document.heroes) {
+    const auto seen = rig.project(to_world(hero.at, document.terrain->ground(hero.at)), view_size);
+    if (seen && inside(outline, *seen)) ids.push_back(hero.id);
   }
   return ids;
 }

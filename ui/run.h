@@ -16,8 +16,8 @@ struct RunOptions {
   std::filesystem::path report;      ///< JSON: seconds a frame, and what they were spent on
   std::filesystem::path state;       ///< JSON: what the window shows, whenever that changes (ui/state_file.h)
   int threads = 0;
-  IVec2 size{1440, 900};  ///< of the window at first
-  float scale = 0;        ///< of text and buttons; 0: the screen's
+  IVec2 size{0};    ///< of the window at first; 0: WindowOptions::kUsual, or what the screen has room for
+  float scale = 0;  ///< of text and buttons; 0: the screen's
 };
 
 /// Opens the window and stays until it is closed. Errors of kind `input` for files that cannot be opened and scripts that

@@ -8,7 +8,6 @@
 #include "core/stopwatch.h"
 #include "exchange/texture_cache.h"
 #include "geometry/ground_mesh.h"
-#include "geometry/tree_mesh.h"
 #include "scene/materials.h"
 #include "scene/view_models.h"
 
@@ -16,18 +15,25 @@ namespace bosquet::ui {
 namespace {
 
 // Nodes of the renderer by what they are; a tree's key is its id.
-enum Kind : std::uint64_t { kTree = 0, kShape, kGround, kWater, kObstacle, kHero, kViewModel };
+enum Kind : std::uint64_t { kTree = 0, kShape, kGround, kWater, kObstacle, kHero, kViewModel, kUnderlay };
 std::uint64_t key_of(Kind kind, std::uint64_t number) { return kind << 40 | number; }
 
 // Materials that are there from the beginning.
 enum : std::size_t { kGroundMaterial, kWaterMaterial, kObstacleMaterial, kShapeMaterial, kFlatMaterial };
 
 constexpr std::size_t kGroundTriangles = 60'000;
-constexpr std::size_t kHeroTriangles = 150'000;
+constexpr float kUnderlayLift_m = 0.06f;
 // A full picture that takes longer would hold up the hand.
 constexpr double kMoment_s = 0.25;
 constexpr double kStill_s = 0.35;
 constexpr double kSlowDraft_s = 0.12;
+
+float height_m(const growth::Skeleton& skeleton) {
+  float top = 0.1f;
+  for (std::size_t i = 0; i < skeleton.size(); ++i)
+    if (skeleton.alive(i)) top = std::max(top, skeleton.distal[i].y);
+  return top;
+}
 
 bool ready(const auto& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -132,31 +138,101 @@ void SceneView::follow_site(const scene::Document& document) {
       put(key_of(kObstacle, static_cast<std::uint64_t>(-obstacle.id)), std::move(node));
     }
   }
-  if (!shown_ || !shown_->heroes.shares(document.heroes) || shown_->terrain != document.terrain) {
-    if (shown_)
-      for (const scene::HeroTree& hero : shown_->heroes) remove(key_of(kHero, static_cast<std::uint64_t>(-hero.id)));
-    for (const scene::HeroTree& hero : document.heroes) {
-      const auto materials = materials_of(document, hero.species);
-      const scene::Species& species = *document.species[hero.species];
-      geometry::MeshOptions options;
-      options.max_triangles = kHeroTriangles;
-      options.seed = document.seed, options.key = hero.key;
-      geometry::TreeMesh mesh =
-          geometry::build_tree_mesh(*hero.skeleton, hero.skeleton->radius, species.look, species.foliage, options);
-      scene::Node node;
-      node.translation = to_world(hero.at, document.terrain->ground(hero.at));
-      const std::size_t first = materials.value_or(kShapeMaterial);
-      const bool own = materials.has_value();
-      if (!mesh.branches.empty())
-        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.branches)), first});
-      if (!mesh.leaves.empty() && own) {
-        const bool mass = mesh.foliage == geometry::FoliageLevel::cards;
-        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh.leaves)),
-                              first + (mass ? scene::kMassPart : scene::kLeafPart)});
-      }
-      put(key_of(kHero, static_cast<std::uint64_t>(-hero.id)), std::move(node));
-    }
+}
+
+// Hero trees stand as shapes until their meshes and materials are there.
+void SceneView::follow_heroes(const scene::Document& document) {
+  if (!heroes_wait_ && heroes_of_ == shown_) return;
+  const bool same = heroes_of_ && heroes_of_->heroes.shares(document.heroes) &&
+                    heroes_of_->terrain == document.terrain && heroes_of_->species.shares(document.species);
+  if (same && !heroes_wait_) {
+    heroes_of_ = shown_;
+    return;
   }
+  if (heroes_of_ && heroes_of_ != shown_)
+    for (const scene::HeroTree& hero : heroes_of_->heroes)
+      if (std::none_of(document.heroes.begin(), document.heroes.end(),
+                       [&](const scene::HeroTree& h) { return h.id == hero.id; }))
+        remove(key_of(kHero, static_cast<std::uint64_t>(-hero.id)));
+  heroes_wait_ = false;
+  for (const scene::HeroTree& hero : document.heroes) {
+    const auto materials = materials_of(document, hero.species);
+    const auto meshes = hero_meshes_.of(document, hero);
+    scene::Node node;
+    node.translation = to_world(hero.at, document.terrain->ground(hero.at));
+    if (materials && meshes) {
+      if (!meshes->branches.empty())
+        node.parts.push_back(
+            {std::shared_ptr<const TriangleMesh>(meshes, &meshes->branches), *materials + scene::kBarkPart});
+      if (!meshes->leaves.empty()) {
+        const bool mass = meshes->foliage == geometry::FoliageLevel::cards;
+        node.parts.push_back({std::shared_ptr<const TriangleMesh>(meshes, &meshes->leaves),
+                              *materials + (mass ? scene::kMassPart : scene::kLeafPart)});
+      }
+    } else {
+      heroes_wait_ = true;
+      const crowns::RepresentativeShape& shape = document.species[hero.species]->shape;
+      const float scale = height_m(*hero.skeleton) / shape.mature_height_m;
+      node.parts.push_back({std::make_shared<const TriangleMesh>(shape_mesh(shape, scale, scale)), kShapeMaterial});
+    }
+    const std::uint64_t key = key_of(kHero, static_cast<std::uint64_t>(-hero.id));
+    const auto there = nodes_.find(key);
+    const bool shape_again = !(materials && meshes) && there != nodes_.end() && there->second.parts.size() == 1 &&
+                             there->second.translation == node.translation &&
+                             there->second.parts[0].material == kShapeMaterial;
+    const bool tree_again = there != nodes_.end() && there->second.translation == node.translation &&
+                            there->second.parts.size() == node.parts.size() && !node.parts.empty() &&
+                            there->second.parts[0].mesh == node.parts[0].mesh;
+    if (!shape_again && !tree_again) put(key, std::move(node));
+  }
+  hero_meshes_.keep(document);
+  heroes_of_ = shown_;
+}
+
+// The picture to draw on follows the ground and its place; it is read in the background.
+void SceneView::follow_underlay(const scene::Document& document) {
+  const scene::Underlay& wanted = document.underlay;
+  if ((wanted.file != underlay_.file || wanted.opacity != underlay_.opacity) && !underlay_read_.valid()) {
+    if (wanted.file != underlay_.file) underlay_shape_ = 0;
+    underlay_ = wanted;
+    underlay_on_.reset();
+    if (!wanted.file.empty())
+      underlay_read_ = std::async(std::launch::async, [wanted] { return read_underlay(wanted); });
+  }
+  if (ready(underlay_read_)) {
+    auto read = underlay_read_.get();
+    if (!read) {
+      problem = read.error().message;
+    } else {
+      underlay_shape_ = read->height_per_width;
+      if (underlay_material_) {
+        static_cast<void>(renderer_->replace_colour(*underlay_material_, read->material));
+      } else if (auto added = renderer_->add_materials(read->material)) {
+        underlay_material_ = *added;
+      }
+      ++changed_;
+    }
+    underlay_on_.reset();
+  }
+  const bool seen = show_underlay && underlay_shape_ > 0 && underlay_material_ && !wanted.file.empty();
+  const bool placed = wanted.south_west == underlay_.south_west && wanted.width_m == underlay_.width_m;
+  if (seen == underlay_shown_ && (!seen || (placed && underlay_on_ == document.terrain))) return;
+  underlay_shown_ = seen;
+  underlay_.south_west = wanted.south_west, underlay_.width_m = wanted.width_m;
+  underlay_on_ = document.terrain;
+  remove(key_of(kUnderlay, 0));
+  if (!seen) return;
+  std::vector<std::shared_ptr<const TriangleMesh>> ground;
+  for (std::uint64_t c = 0;; ++c) {
+    const auto chunk = nodes_.find(key_of(kGround, c));
+    if (chunk == nodes_.end()) break;
+    ground.push_back(chunk->second.parts.front().mesh);
+  }
+  TriangleMesh mesh = drape(ground, rectangle_of(wanted, underlay_shape_), kUnderlayLift_m);
+  if (mesh.empty()) return;
+  scene::Node node;
+  node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh)), *underlay_material_});
+  put(key_of(kUnderlay, 0), std::move(node));
 }
 
 void SceneView::show_shape(const scene::Document& document, const scene::Tree& tree) {
@@ -299,6 +375,8 @@ void SceneView::update(Session& session) {
     follow_trees(*document);
     shown_ = document;
   }
+  follow_heroes(*document);
+  follow_underlay(*document);
   // Materials that came in the meantime.
   std::vector<std::int32_t> waiting = std::exchange(waiting_, {});
   for (const std::int32_t id : waiting)
@@ -327,8 +405,8 @@ void SceneView::update(Session& session) {
 }
 
 bool SceneView::settled() const {
-  return waiting_.empty() && species_made_.empty() && !overhead_.valid() && overhead_for_ == changed_ &&
-         drawn_for_ == changed_;
+  return waiting_.empty() && !heroes_wait_ && !underlay_read_.valid() && species_made_.empty() && !overhead_.valid() &&
+         overhead_for_ == changed_ && drawn_for_ == changed_;
 }
 
 void SceneView::draw(const Session& session, IVec2 size, bool moving, double time_s) {

@@ -21,7 +21,9 @@
 #include "render/renderer.h"
 #include "scene/model.h"
 #include "scene/pipeline.h"
+#include "ui/hero_meshes.h"
 #include "ui/session.h"
+#include "ui/underlay.h"
 
 namespace bosquet::ui {
 
@@ -49,6 +51,8 @@ class SceneView {
   Show show = Show::trees;
   std::optional<float> slice_m;  ///< height of the regions shown
   render::Look look;
+  bool show_underlay = true;  ///< the picture to draw on, where the document has one
+  std::string problem;        ///< of reading it; cleared by who shows it
 
   std::size_t grown_trees() const { return grown_.size(); }
   std::size_t triangles() const { return triangles_; }
@@ -60,6 +64,8 @@ class SceneView {
   void put(std::uint64_t key, scene::Node node);
   void remove(std::uint64_t key);
   void follow_site(const scene::Document& document);
+  void follow_heroes(const scene::Document& document);
+  void follow_underlay(const scene::Document& document);
   void follow_trees(const scene::Document& document);
   void show_grown(const scene::Document& document, const scene::FinishedTree& tree);
   void show_shape(const scene::Document& document, const scene::Tree& tree);
@@ -78,6 +84,17 @@ class SceneView {
   // Materials of a species by its name: index of the first, or made now.
   std::map<std::string, std::size_t> species_materials_;
   std::map<std::string, std::future<render::MaterialLevels>> species_made_;
+
+  HeroMeshes hero_meshes_;
+  std::shared_ptr<const scene::Document> heroes_of_;  ///< the document whose hero trees are shown
+  bool heroes_wait_ = false;                          ///< some stand as shapes until mesh or materials are there
+
+  scene::Underlay underlay_;  ///< that is shown or read
+  std::future<Result<UnderlayPicture>> underlay_read_;
+  std::optional<std::size_t> underlay_material_;
+  float underlay_shape_ = 0;  ///< height per width; 0: none was read
+  std::shared_ptr<const terrain::Terrain> underlay_on_;
+  bool underlay_shown_ = false;
 
   std::vector<scene::Material> site_materials_;
   std::future<render::Overhead> overhead_;

@@ -4,6 +4,7 @@
 
 #include "core/letters.h"
 #include "exchange/recipe.h"
+#include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
 
@@ -52,7 +53,8 @@ void Session::changed() {
   ++revision_;
   ++edit_;
   // What is gone cannot be selected.
-  std::erase_if(selection_, [&](std::int32_t id) { return !document()->trees->find(id); });
+  std::erase_if(selection_,
+                [&](std::int32_t id) { return id > 0 ? !document()->trees->find(id) : !find_hero(*document(), id); });
   looked_from_ = rig.eye();
   pipeline_->set_document(document(), {looked_from_});
   if (journal_) journal_->record(*document(), edit_);
@@ -187,6 +189,10 @@ const scene::Tree* Session::selected_tree() const {
   return selection_.size() == 1 ? document()->trees->find(selection_.front()) : nullptr;
 }
 
+const scene::HeroTree* Session::selected_hero() const {
+  return selection_.size() == 1 ? find_hero(*document(), selection_.front()) : nullptr;
+}
+
 void Session::take(ToolKind kind) {
   tool_->cancel();
   decline_trees();
@@ -228,6 +234,11 @@ void Session::decline_trees() {
 void Session::set_growth(const scene::PipelineOptions& options) {
   growth_ = options;
   pipeline_->set_options(options);
+}
+
+void Session::set_fineness(float fineness) {
+  growth_.fineness = fineness;
+  pipeline_->set_options(growth_);
 }
 
 void Session::set_year(std::optional<float> year) {

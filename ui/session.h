@@ -66,6 +66,8 @@ class Session {
   void select(std::vector<std::int32_t> trees);
   /// The one tree that is selected, or null.
   const scene::Tree* selected_tree() const;
+  /// The one hero tree that is selected, or null.
+  const scene::HeroTree* selected_hero() const;
 
   // The tool in hand.
   ToolKind tool_kind() const { return tool_kind_; }
@@ -91,6 +93,7 @@ class Session {
   const scene::PipelineOptions& growth() const { return growth_; }
   void set_growth(const scene::PipelineOptions& options);
   void set_year(std::optional<float> year);
+  void set_fineness(float fineness);  ///< of the trees' meshes (scene/pipeline.h)
 
  private:
   void changed();

@@ -65,6 +65,24 @@ int key_of(int key, int scancode) {
   return key >= 32 && key < 128 ? key : kKeyNone;
 }
 
+// The usual size, in the screen's own measure, as far as there is room for it and for the frame that the desktop puts
+// round it.
+IVec2 size_with_room() {
+  constexpr int kFrame = 48;
+  const IVec2 usual = WindowOptions::kUsual;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return usual;
+  int x = 0, y = 0, w = 0, h = 0;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &w, &h);
+  float sx = 1, sy = 1;
+  glfwGetMonitorContentScale(monitor, &sx, &sy);
+  // What is asked for is enlarged by the scale (GLFW_SCALE_TO_MONITOR) where sizes are in pixels.
+  const auto room = [](int there, float scale) {
+    return std::max(320, static_cast<int>(static_cast<float>(there - kFrame) / std::max(1.0f, scale)));
+  };
+  return {std::min(usual.x, room(w, sx)), std::min(usual.y, room(h, sy))};
+}
+
 }  // namespace
 
 struct Window::State {
@@ -125,7 +143,8 @@ Result<Window> Window::open(const WindowOptions& options) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  state->window = glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+  const IVec2 size = options.size.x > 0 ? options.size : size_with_room();
+  state->window = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
   if (!state->window)
     return cannot_finish("no window with OpenGL 3.3 can be opened (" + last_glfw_error() + "); " + kWithout);
   GLFWwindow* window = state->window;

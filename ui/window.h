@@ -17,7 +17,8 @@ namespace bosquet::ui {
 
 struct WindowOptions {
   std::string title = "Bosquet";
-  IVec2 size{1440, 900};
+  static constexpr IVec2 kUsual{1440, 900};
+  IVec2 size{0};  ///< 0: the usual one, or as much of it as the screen has beside its bars
 };
 
 class Window {

@@ -5,9 +5,16 @@
 
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "exchange/image_file.h"
+#include "exchange/tree_file.h"
+#include "growth/grow.h"
+#include "scene/grown_scene.h"
+#include "tests/scene/sample_document.h"
+#include "ui/export_job.h"
 #include "ui/import_files.h"
+#include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
 namespace {
@@ -169,6 +176,66 @@ TEST(ImportWords, TellWhatCameWhatItDisplacedAndHowManyNotesThereAre) {
   EXPECT_EQ(import_words(edit, "a/trees.csv"),
             "Import 2 trees from trees.csv\n2 trees stand now on a path, in water or under a building\n"
             "one\ntwo\nthree\nand 2 more");
+}
+
+TEST_F(Import, ASavedTreeComesIntoTheHandWithItsSpecies) {
+  const auto meadow = make_template("Meadow");
+  ASSERT_TRUE(meadow);
+  exchange::SavedTree tree;
+  tree.species = "european_beech";  // that the meadow does not have
+  tree.key = 5;
+  growth::GrowthInput input;
+  growth::Parameters small = meadow->species[0]->growth;
+  small.max_seasons = 8;
+  input.parameters = &small;
+  input.max_height_m = 3;
+  tree.skeleton = growth::grow(input);
+  const std::filesystem::path file = folder_ / "Old beech.tree.json";
+  ASSERT_TRUE(exchange::write_tree(tree, small, file));
+  const auto hero = read_hero(*meadow, file);
+  ASSERT_TRUE(hero) << hero.error().message;
+  EXPECT_EQ(hero->name, "Old beech");
+  const auto placed = place_hero(*meadow, *hero, {20, 20}, 0);
+  ASSERT_TRUE(placed) << placed.error().message;
+  const scene::HeroTree& there = placed->document.heroes[0];
+  EXPECT_EQ(placed->document.species[there.species]->name, "european_beech");
+  EXPECT_EQ(there.skeleton->distal, tree.skeleton.distal);
+
+  tree.species = "triffid";
+  ASSERT_TRUE(exchange::write_tree(tree, small, file));
+  const auto unknown = read_hero(*meadow, file);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("triffid"), std::string::npos);
+}
+
+TEST_F(Import, APlanPictureIsAsWideAsTheSiteAtFirst) {
+  const auto meadow = make_template("Meadow");
+  ASSERT_TRUE(meadow);
+  ASSERT_TRUE(exchange::write_image(folder_ / "plan.png", Image(20, 10, 3)));
+  const auto edit = import_file(*meadow, ImportKind::underlay, folder_ / "plan.png");
+  ASSERT_TRUE(edit) << edit.error().message;
+  EXPECT_EQ(edit->document.underlay.file, (folder_ / "plan.png").string());
+  EXPECT_EQ(edit->document.underlay.width_m, meadow->terrain->size_m().x);
+  EXPECT_FALSE(import_file(*meadow, ImportKind::underlay, write("no.png", "no picture")));
+}
+
+TEST_F(Import, AnExportIsAsLargeAsItWasToldToBe) {
+  const auto grown = scene::grow_scene(scene::sample_document("rowan", {{10, 10}, {20, 14}}, {30, 30}), {}, nullptr);
+  ASSERT_TRUE(grown);
+  const scene::GrownScene& scene = *grown;
+  for (const ExportKind kind :
+       {ExportKind::plan_drawing, ExportKind::schedule, ExportKind::species, ExportKind::web_map, ExportKind::recipe}) {
+    ExportProbe probe;
+    const std::string ending(export_kind(kind).ending);
+    probe.ask(
+        1, kind, [&] { return scene; }, "Avenue");
+    while (probe.words().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const auto written = write_sheet(scene, "Avenue", folder_ / ("avenue" + ending));
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_EQ(probe.words(), "About " + bytes_words(*written)) << ending;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / ("avenue" + ending)));
+  }
+  EXPECT_FALSE(write_sheet(scene, "Avenue", folder_ / "avenue.docx"));
 }
 
 TEST_F(Import, AFileThatIsNeitherIsNamed) {

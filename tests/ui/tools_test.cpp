@@ -3,9 +3,12 @@
 #include <cmath>
 #include <set>
 
+#include "growth/grow.h"
 #include "scene/history.h"
+#include "scene/site_edits.h"
 #include "tests/scene/sample_document.h"
 #include "ui/pick.h"
+#include "ui/tools/standing_edits.h"
 #include "ui/tools/tool.h"
 
 namespace bosquet::ui {
@@ -276,6 +279,97 @@ TEST(Tools, WaterFollowsTheHandAndGoesWithDelete) {
   EXPECT_EQ(hand.history().steps(), 2u);
   hand.key(kKeyDelete);
   EXPECT_FALSE(hand.document().terrain->water_level_m);
+}
+
+TEST(Tools, WhereDensityIsPaintedThinFewerTreesAreFilledIn) {
+  Hand hand = on_meadow();
+  hand.settings.radius_m = 100;  // more than the site
+  hand.settings.ground.strength = 1;
+  hand.settings.ground.density = 0;
+  hand.take(ToolKind::density);
+  hand.click({10, 30});
+  EXPECT_EQ(hand.history().undo_name(), "Paint density");
+  EXPECT_LT(hand.document().terrain->density.at({10, 30}), 0.01f);
+  hand.click({10, 30}, {.shift = true});
+  EXPECT_GT(hand.document().terrain->density.at({10, 30}), 0.99f);
+}
+
+TEST(Tools, ABrushLargerThanTheSiteWorksOnAllOfIt) {
+  Hand hand = on_meadow({{10, 10}, {30, 30}, {50, 50}});
+  hand.settings.radius_m = kMostRadius_m;
+  hand.settings.ground.strength = 1;
+  hand.settings.ground.hardness = 1;
+  hand.take(ToolKind::raise);
+  hand.click({30, 30});
+  for (const Vec2 at : {Vec2(1, 1), Vec2(59, 59), Vec2(30, 30)}) EXPECT_NEAR(hand.ground(at), 1, 0.01f);
+  hand.take(ToolKind::plant_brush);
+  hand.drag({30, 30}, {31, 31});
+  EXPECT_GT(hand.trees(), 3u);
+  for (const scene::Tree& tree : *hand.document().trees)
+    EXPECT_TRUE(terrain::on_site(*hand.document().terrain, tree.at));
+  hand.take(ToolKind::erase);
+  hand.click({30, 30});
+  EXPECT_EQ(hand.trees(), 0u);
+}
+
+// A small birch.
+HeroInHand small_hero(const scene::Document& document) {
+  growth::GrowthInput input;
+  growth::Parameters small = document.species[0]->growth;
+  small.max_seasons = 12;
+  input.parameters = &small;
+  input.max_height_m = 4;
+  input.seed = 1, input.key = 1;
+  return {"old birch", document.species[0], 7, std::make_shared<const growth::Skeleton>(growth::grow(input))};
+}
+
+TEST(Tools, AHeroTreeIsSetByAClickMovedTurnedAndTakenAway) {
+  Hand hand = on_meadow({{10, 10}});
+  hand.take(ToolKind::hero);
+  hand.click({30, 30});
+  EXPECT_TRUE(hand.document().heroes.empty());  // none in hand
+  hand.settings.hero = small_hero(hand.document());
+  hand.click({30, 30});
+  hand.click({45, 15});
+  ASSERT_EQ(hand.document().heroes.size(), 2u);
+  EXPECT_EQ(hand.history().undo_name(), "Place 'old birch'");
+  const std::int32_t id = hand.document().heroes[0].id;
+  EXPECT_LT(id, 0);
+  EXPECT_EQ(hand.document().heroes[0].skeleton, hand.document().heroes[1].skeleton);  // shared
+
+  hand.take(ToolKind::select);
+  hand.click({30, 30});
+  EXPECT_EQ(hand.selection, std::vector<std::int32_t>{id});
+  hand.drag({30, 30}, {20, 40});
+  EXPECT_NEAR(glm::distance(find_hero(hand.document(), id)->at, Vec2(20, 40)), 0, 0.1f);
+  EXPECT_EQ(hand.document().trees->find(1)->at, Vec2(10, 10));
+
+  // Trees and hero trees go together.
+  hand.selection = {id, 1};
+  hand.drag({20, 40}, {23, 40});
+  EXPECT_NEAR(find_hero(hand.document(), id)->at.x, 23, 0.1f);
+  EXPECT_NEAR(hand.document().trees->find(1)->at.x, 13, 0.1f);
+  hand.key(kKeyDelete);
+  EXPECT_EQ(hand.document().heroes.size(), 1u);
+  EXPECT_EQ(hand.trees(), 0u);
+  hand.history().undo();
+  EXPECT_EQ(hand.document().heroes.size(), 2u);
+  EXPECT_EQ(hand.trees(), 1u);
+}
+
+TEST(Tools, AHeroTreeTurnsAboutItsFoot) {
+  Hand hand = on_meadow();
+  const HeroInHand hero = small_hero(hand.document());
+  const auto placed = place_hero(hand.document(), hero, {30, 30}, 90);
+  ASSERT_TRUE(placed);
+  const Vec3 was = hero.skeleton->distal.back(), is = placed->document.heroes[0].skeleton->distal.back();
+  EXPECT_NEAR(is.x, was.z, 1e-4f);  // east comes to north
+  EXPECT_NEAR(is.z, -was.x, 1e-4f);
+  EXPECT_EQ(is.y, was.y);
+  const auto larger = scene::turn_hero(placed->document, placed->document.heroes[0].id, 2, 0);
+  ASSERT_TRUE(larger);
+  EXPECT_NEAR(extent_of(*larger->document.heroes[0].skeleton).height_m, 2 * extent_of(*hero.skeleton).height_m, 1e-3f);
+  EXPECT_FALSE(place_hero(hand.document(), hero, {-5, 30}, 0));
 }
 
 TEST(Tools, AStrokeOffTheSiteOrOfNoLengthDoesNoHarm) {

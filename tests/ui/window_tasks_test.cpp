@@ -6,6 +6,7 @@
 #include <string>
 
 #include "desktop.h"
+#include "x_client.h"
 
 namespace bosquet::ui {
 namespace {
@@ -265,7 +266,8 @@ TEST_F(WindowTask, UnsavedWorkIsAskedAboutAndNeverLost) {
   take("t", "Single tree");
   click(scene(0.5f, 0.6f));
   ASSERT_TRUE(wait([](const Json& s) { return s["trees"] == 1 && s["unsaved"]; }, 60));
-  key("ctrl+q");
+  test::XClient desktop(display_);
+  ASSERT_TRUE(desktop.close_window());
   ASSERT_TRUE(wait([](const Json& s) { return s["question"] == "unsaved"; }, 60));
   press("Cancel");
   ASSERT_TRUE(wait([](const Json& s) { return s["question"] == ""; }, 60));
@@ -289,20 +291,27 @@ TEST_F(WindowTask, UnsavedWorkIsAskedAboutAndNeverLost) {
 
 TEST_F(WindowTask, AFileThatIsNoProjectIsNamedAndTheDocumentStays) {
   open({write("lawn.toml", kLawn).string()});
-  const std::filesystem::path wrong = write("notes.txt", "hello"), broken = write("broken.bosquet", "no database");
-  for (const std::filesystem::path& file : {wrong, broken}) {
-    key("ctrl+o");
-    ASSERT_TRUE(wait([](const Json& s) { return s["question"] == "file"; }, 60));
-    type(file.string());
-    key("Return");
+  const auto named = [&](const std::filesystem::path& file) {
     EXPECT_TRUE(wait(
         [&](const Json& s) {
           return s["message"].get<std::string>().find(file.filename().string()) != std::string::npos;
         },
-        10))
+        60))
         << state()["message"];
     EXPECT_EQ(state()["title"], "lawn - Bosquet");
-  }
+  };
+  const std::filesystem::path wrong = write("notes.txt", "hello"), broken = write("broken.bosquet", "no database");
+  test::XClient desktop(display_);
+  ASSERT_TRUE(desktop.drop(wrong.string()));
+  named(wrong);
+  key("ctrl+o");
+  ASSERT_TRUE(wait([](const Json& s) { return s["question"] == "file"; }, 60));
+  type(broken.string());
+  key("Return");
+  named(broken);
+  // What is a recipe opens where it is dropped.
+  ASSERT_TRUE(desktop.drop(write("meadow.toml", kLawn).string()));
+  EXPECT_TRUE(wait([](const Json& s) { return s["title"] == "meadow - Bosquet"; }, 60)) << state()["title"];
 }
 
 TEST_F(WindowTask, AStrokeOfAHundredThousandTreesAsksFirst) {

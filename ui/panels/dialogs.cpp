@@ -2,9 +2,13 @@
 #include <imgui.h>
 
 #include <array>
+#include <utility>
 
+#include "core/hash.h"
+#include "core/letters.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/slider.h"
 
 // What is asked in the middle of the window, the export dialog, and the first steps.
 namespace bosquet::ui {
@@ -21,42 +25,85 @@ constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoCollapse | ImGuiWindowFl
 // The grown scene of the session as it stands, for files.
 scene::GrownScene grown_scene(App& app) {
   scene::GrownScene grown;
-  grown.document = *app.session().document();
+  grown.given = *app.session().document();
+  grown.document = scene::without_removed(grown.given);
+  // What could not be grown is in no file.
+  std::vector<scene::Tree> there;
   for (const scene::Tree& tree : *grown.document.trees) {
     const auto found = app.view().grown().find(tree.id);
-    grown.trees.push_back(found != app.view().grown().end() ? found->second.grown : scene::GrownTree{});
+    if (found == app.view().grown().end() || !found->second.grown.skeleton) continue;
+    there.push_back(tree);
+    grown.trees.push_back(found->second.grown);
   }
+  if (there.size() < grown.document.trees->size())
+    grown.document.trees = std::make_shared<const scene::Trees>(std::move(there));
   return grown;
 }
 
 }  // namespace
 
-void App::export_to(const std::filesystem::path& file) { export_.start(grown_scene(*this), export_settings_, file); }
+void App::export_to(const std::filesystem::path& file) {
+  export_.start(grown_scene(*this), session_->name(), export_settings_, file);
+}
 
 void Panels::export_dialog(App& app, const Layout& layout) {
   Session& s = *app.session_;
-  const char* title = "Export as glTF";
+  const char* title = "Export";
   if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
   centre_next(layout, 430);
   if (!ImGui::BeginPopupModal(title, &app.show_export_, kDialog)) return;
   ExportSettings& e = app.export_settings_;
-  int preset = static_cast<int>(e.preset);
-  if (ImGui::Combo("For", &preset, "Everything\0Blender\0Unreal / Unity\0Web\0"))
-    e.preset = static_cast<ExportPreset>(preset);
-  static constexpr std::array<const char*, 4> kPresets{
-      "Opens everywhere: plain meshes and textures.", "Plain meshes, as Blender reads them.",
-      "Plain, each tree with its levels of detail as nodes.",
-      "Small: leaves instanced, everything packed. Needs a viewer that knows meshopt, such as three.js."};
-  ImGui::TextWrapped("%s", kPresets[static_cast<std::size_t>(preset)]);
-  ImGui::SliderInt("Triangles at most", &e.max_triangles, 50'000, 20'000'000, "%d", ImGuiSliderFlags_Logarithmic);
+  const ExportKindInfo& kind = export_kind(e.kind);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##kind", kind.name.data())) {
+    for (int k = 0; k < kExportKinds; ++k)
+      if (const auto one = static_cast<ExportKind>(k); ImGui::Selectable(export_kind(one).name.data(), one == e.kind))
+        e.kind = one;
+    ImGui::EndCombo();
+  }
+  mark(app, "Export kind");
+  const bool scene = e.kind == ExportKind::scene;
+  if (scene) {
+    int preset = static_cast<int>(e.preset);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::Combo("##preset", &preset, "For everything\0For Blender\0For Unreal / Unity\0For the web\0"))
+      e.preset = static_cast<ExportPreset>(preset);
+    static constexpr std::array<const char*, 4> kPresets{
+        "Opens everywhere: plain meshes and textures.", "Plain meshes, as Blender reads them.",
+        "Plain, each tree with its levels of detail as nodes.",
+        "Small: leaves instanced, everything packed. Needs a viewer that knows meshopt, such as three.js."};
+    ImGui::TextWrapped("%s", kPresets[static_cast<std::size_t>(preset)]);
+    ImGui::SetNextItemWidth(-1);
+    slider("Triangles at most", e.max_triangles, 50'000, 20'000'000, "%d", ImGuiSliderFlags_Logarithmic);
+  } else {
+    ImGui::TextWrapped("%s", kind.meaning.data());
+  }
   const bool ready = s.pipeline().idle();
+  const std::uint64_t asked = Hasher()
+                                  .add(s.revision())
+                                  .add(s.growth().year.value_or(0.0f))
+                                  .add(static_cast<std::uint64_t>(e.kind))
+                                  .add(static_cast<std::uint64_t>(e.preset))
+                                  .add(static_cast<std::uint64_t>(e.max_triangles))
+                                  .digest();
   if (!ready) {
     ImGui::TextDisabled("The trees are still growing...");
-  } else {
-    const ExportSize size = estimate(grown_scene(app), e);
+  } else if (scene) {
+    // Asked once for each answer: it looks at every tree.
+    static std::uint64_t told = 0;
+    static ExportSize size;
+    if (std::exchange(told, asked) != asked) size = estimate(grown_scene(app), e);
     ImGui::Text("About %s triangles and %s",
                 fmt::format("{:.2f} million", static_cast<double>(size.triangles) / 1e6).c_str(),
-                fmt::format("{:.0f} MB", static_cast<double>(size.bytes) / 1e6).c_str());
+                bytes_words(size.bytes).c_str());
+  } else {
+    app.export_probe_.ask(
+        asked, e.kind, [&app] { return grown_scene(app); }, s.name());
+    const std::string& words = app.export_probe_.words();
+    if (words.empty())
+      ImGui::TextDisabled("About ...");
+    else
+      ImGui::TextWrapped("%s", words.c_str());
   }
   ImGui::BeginDisabled(!ready || app.export_.running());
   const bool chosen = ImGui::Button("Choose file...", {140 * layout.scale, 0});
@@ -64,8 +111,13 @@ void Panels::export_dialog(App& app, const Layout& layout) {
   if (chosen) {
     app.show_export_ = false;
     ImGui::CloseCurrentPopup();
-    app.chooser_.ask(FileChooser::Mode::save, "Export", {".glb", ".gltf"}, s.name() + ".glb",
-                     [&app](const std::filesystem::path& file) { app.export_to(file); });
+    const std::string ending(kind.ending);
+    app.chooser_.ask(FileChooser::Mode::save, "Export",
+                     scene ? std::vector<std::string>{".glb", ".gltf"} : std::vector<std::string>{ending},
+                     s.name() + ending, [&app, scene, ending](std::filesystem::path file) {
+                       if (!scene && !folded_letters(file.filename().string()).ends_with(ending)) file += ending;
+                       app.export_to(file);
+                     });
   }
   ImGui::EndDisabled();
   ImGui::SameLine();
@@ -107,17 +159,27 @@ void Panels::questions(App& app, const Layout& layout) {
     if (!ImGui::BeginPopupModal("Recover", nullptr, kDialog)) return;
     ImGui::TextWrapped("Bosquet ended before this was saved:");
     std::optional<std::size_t> chosen;
-    for (std::size_t i = 0; i < app.recoveries_.size(); ++i) {
-      const scene::Recovery& r = app.recoveries_[i];
-      const std::string name = r.project.empty() ? "a new document" : r.project.filename().string();
-      ImGui::Text("%s, %s, %zu edits", name.c_str(), scene::time_words(r.time).c_str(),
-                  static_cast<std::size_t>(r.edits));
-      ImGui::SameLine(350 * layout.scale);
-      ImGui::PushID(static_cast<int>(i));
-      if (ImGui::Button("Recover", {110 * layout.scale, 0})) chosen = i;
-      mark(app, fmt::format("Recover {}", i));
-      ImGui::PopID();
+    const float button = 100 * layout.scale;
+    if (ImGui::BeginTable("recoveries", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) {
+      ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+      ImGui::TableSetupColumn("act", ImGuiTableColumnFlags_WidthFixed, button);
+      for (std::size_t i = 0; i < app.recoveries_.size(); ++i) {
+        const scene::Recovery& r = app.recoveries_[i];
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const std::string name = r.project.empty() ? "A new document" : r.project.filename().string();
+        ImGui::TextWrapped("%s", name.c_str());
+        ImGui::TextDisabled(
+            "%s", fmt::format("{}, {} edit{}", scene::time_words(r.time), r.edits, r.edits == 1 ? "" : "s").c_str());
+        ImGui::TableNextColumn();
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button("Recover", {button, 0})) chosen = i;
+        mark(app, fmt::format("Recover {}", i));
+        ImGui::PopID();
+      }
+      ImGui::EndTable();
     }
+    ImGui::Spacing();
     if (chosen) {
       if (auto recovered = s.recover(app.recoveries_[*chosen]); !recovered)
         app.say(recovered.error().message);

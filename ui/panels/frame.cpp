@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "ui/panels/panels.h"
+#include "ui/tools/standing_edits.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/slider.h"
 
 // The window's frame: menu, tools, status, and what lies over them for a moment.
 namespace bosquet::ui {
@@ -42,6 +44,19 @@ void Panels::ask_import(App& app, ImportKind kind) {
                      app.say(import_words(*edit, file));
                      app.session_->apply(std::move(*edit));
                    });
+}
+
+void Panels::ask_hero(App& app) {
+  app.chooser_.ask(FileChooser::Mode::open, "Hero tree", {".tree.json"}, "", [&app](const std::filesystem::path& file) {
+    auto hero = read_hero(*app.session_->document(), file);
+    if (!hero) {
+      app.say(hero.error().message);
+      return;
+    }
+    app.say(hero->name + " is in hand: click where it shall stand");
+    app.session_->settings.hero = std::move(*hero);
+    app.session_->take(ToolKind::hero);
+  });
 }
 
 void Panels::ask_save_as(App& app, std::function<void()> then) {
@@ -99,10 +114,16 @@ void Panels::menu(App& app, Layout& layout) {
     if (ImGui::MenuItem("Save", "Ctrl+S")) save(app);
     if (ImGui::MenuItem("Save as...", "Ctrl+Shift+S")) ask_save_as(app);
     ImGui::Separator();
-    if (ImGui::BeginMenu("Import")) {
+    const bool import_open = ImGui::BeginMenu("Import");
+    mark(app, "Import");
+    if (import_open) {
       if (ImGui::MenuItem("Ground (elevation raster)...")) ask_import(app, ImportKind::ground);
       if (ImGui::MenuItem("Trees (inventory)...")) ask_import(app, ImportKind::trees);
       if (ImGui::MenuItem("Buildings (outlines or mesh)...")) ask_import(app, ImportKind::buildings);
+      if (ImGui::MenuItem("Hero tree (.tree.json)...")) ask_hero(app);
+      mark(app, "Import hero");
+      if (ImGui::MenuItem("Plan picture to draw on...")) ask_import(app, ImportKind::underlay);
+      mark(app, "Import underlay");
       ImGui::EndMenu();
     }
     if (ImGui::MenuItem("Export...", "Ctrl+E")) app.show_export_ = true;
@@ -123,7 +144,7 @@ void Panels::menu(App& app, Layout& layout) {
     ImGui::Separator();
     const bool any = !s.selection().empty();
     if (ImGui::MenuItem("Delete", "Delete", false, any)) {
-      s.apply(scene::remove_trees(*s.document(), s.selection()));
+      s.apply(remove_selected(*s.document(), s.selection()));
     }
     if (ImGui::MenuItem("Lock", "Ctrl+L", false, any)) s.apply(scene::lock_trees(*s.document(), s.selection(), true));
     if (ImGui::MenuItem("Unlock", nullptr, false, any)) s.apply(scene::lock_trees(*s.document(), s.selection(), false));
@@ -153,6 +174,14 @@ void Panels::menu(App& app, Layout& layout) {
       ImGui::EndMenu();
     }
     ImGui::Separator();
+    if (!s.document()->underlay.file.empty()) {
+      ImGui::MenuItem("Plan picture beneath", nullptr, &app.view_->show_underlay);
+      mark(app, "Plan picture beneath");
+      ImGui::Separator();
+    }
+    const bool feet = s.settings.units == Units::feet;
+    if (ImGui::MenuItem("Feet and inches", nullptr, feet)) s.settings.units = feet ? Units::metres : Units::feet;
+    mark(app, "Feet and inches");
     if (ImGui::MenuItem("Dark", nullptr, app.dark_)) {
       app.dark_ = !app.dark_;
       apply_theme(app.dark_, app.scale_);
@@ -191,6 +220,8 @@ const char* symbol(ToolKind kind) {
       return "\xef\x83\x89";  // bars
     case ToolKind::fill:
       return "\xef\x95\x86";  // draw polygon, missing in old fonts
+    case ToolKind::hero:
+      return "\xef\x80\x85";  // star
     case ToolKind::erase:
       return "\xef\x84\xad";  // eraser
     case ToolKind::raise:
@@ -205,37 +236,54 @@ const char* symbol(ToolKind kind) {
 }
 
 const char* short_name(ToolKind kind) {
-  static constexpr const char* kNames[] = {"Select", "Paint",     "Tree",      "Row",   "Grid",   "Hedge",
-                                           "Fill",   "Erase",     "Raise",     "Lower", "Smooth", "Flatten",
-                                           "Rough",  "Keep free", "Let plant", "Water", "Measure"};
+  static constexpr const char* kNames[] = {"Select",    "Paint",     "Tree",    "Row",   "Grid",   "Hedge",   "Fill",
+                                           "Hero",      "Erase",     "Raise",   "Lower", "Smooth", "Flatten", "Rough",
+                                           "Keep free", "Let plant", "Density", "Water", "Measure"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-void radius_field(ToolSettings& t) {
-  ImGui::SetNextItemWidth(130 * ImGui::GetFontSize() / 15);
-  ImGui::SliderFloat("Radius", &t.radius_m, kLeastRadius_m, 100.0f, "%.1f m",
-                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  explain("Radius of the brush; [ and ] change it");
-  ImGui::SameLine();
+constexpr float kLeastSlider = 118.0f;
+
+void width_for(const char* label, const char* longest_value) {
+  ImGui::SetNextItemWidth(std::max(kLeastSlider * ImGui::GetFontSize() / 15.0f, slider_width(label, longest_value)));
 }
 
-void number(const char* label, float& value, float low, float high, const char* format, const char* meaning) {
-  ImGui::SetNextItemWidth(105 * ImGui::GetFontSize() / 15);
-  ImGui::SliderFloat(label, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+void length(const char* label, float& metres, float low, float high, Units units, const char* meaning,
+            ImGuiSliderFlags flags = 0) {
+  width_for(label, "100.0 ft");
+  length_slider(label, metres, low, high, units, flags);
   explain(meaning);
   ImGui::SameLine();
 }
 
-void row_fields(distribution::RowRules& row) {
-  number("Spacing", row.spacing_m, 0.3f, 30.0f, "%.1f m", "Distance from tree to tree along the row");
+void number(const char* label, float& value, float low, float high, const char* format, const char* meaning,
+            ImGuiSliderFlags flags = 0) {
+  width_for(label, "0.00");
+  slider(label, value, low, high, format, flags);
+  explain(meaning);
+  ImGui::SameLine();
+}
+
+void row_fields(distribution::RowRules& row, Units units) {
+  length("Spacing", row.spacing_m, 0.3f, 30.0f, units, "Distance from tree to tree along the row");
   int sides = static_cast<int>(row.sides);
   ImGui::SetNextItemWidth(90 * ImGui::GetFontSize() / 15);
   if (ImGui::Combo("Sides", &sides, "On the line\0Left\0Right\0Both\0"))
     row.sides = static_cast<distribution::RowSides>(sides);
   ImGui::SameLine();
   if (row.sides != distribution::RowSides::on_line)
-    number("Offset", row.offset_m, 0.0f, 30.0f, "%.1f m", "Distance of the rows from the line");
-  number("Jitter", row.jitter_m, 0.0f, 5.0f, "%.1f m", "Largest distance of a tree from its place");
+    length("Offset", row.offset_m, 0.0f, 30.0f, units, "Distance of the rows from the line");
+  length("Jitter", row.jitter_m, 0.0f, 5.0f, units, "Largest distance of a tree from its place");
+}
+
+// Trees an area, by hectares or acres.
+void density_slider(ToolSettings& t) {
+  constexpr float kAcresPerHectare = 2.47105f;
+  const bool metric = t.units == Units::metres;
+  float each = metric ? t.per_hectare : t.per_hectare / kAcresPerHectare;
+  if (slider("Density", each, metric ? 10.0f : 4.0f, metric ? 10'000.0f : 4'000.0f,
+             metric ? "%.0f / ha" : "%.0f / acre", ImGuiSliderFlags_Logarithmic))
+    t.per_hectare = metric ? each : each * kAcresPerHectare;
 }
 
 }  // namespace
@@ -249,7 +297,8 @@ void Panels::toolbar(App& app, const Layout& layout) {
     for (int k = 0; k < kToolCount; ++k) {
       const auto kind = static_cast<ToolKind>(k);
       const ToolInfo& info = tool_info(kind);
-      if (k == 1 || k == 8 || k == 13 || k == 16) {
+      if (kind == ToolKind::plant_brush || kind == ToolKind::raise || kind == ToolKind::exclude ||
+          kind == ToolKind::measure) {
         ImGui::Dummy({5 * layout.scale, button});
         ImGui::SameLine();
       }
@@ -271,9 +320,13 @@ void Panels::toolbar(App& app, const Layout& layout) {
       ImGui::Dummy({8 * layout.scale, button});
       ImGui::SameLine();
     }
-    // What the tool in hand can be told, and nothing of the others.
+    // What the tool in hand can be told, and nothing of the others; as high as the tools.
+    const float within = std::max(0.0f, 0.5f * (button - ImGui::GetFontSize()));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, within});
     const ToolInfo& info = tool_info(s.tool_kind());
-    if (info.has_radius) radius_field(t);
+    if (info.has_radius)
+      length("Radius", t.radius_m, kLeastRadius_m, 100.0f, t.units, "Radius of the brush; [ and ] change it",
+             ImGuiSliderFlags_Logarithmic);
     switch (s.tool_kind()) {
       case ToolKind::plant_brush:
         number("Strength", t.plant.strength, 0.02f, 1.0f, "%.2f", "Trees that the brush plants in a second");
@@ -282,30 +335,37 @@ void Panels::toolbar(App& app, const Layout& layout) {
         number("Size", t.scale, 0.1f, 1.2f, "%.2f", "Share of the mature size");
         break;
       case ToolKind::row:
-        row_fields(t.row);
+        row_fields(t.row, t.units);
         break;
       case ToolKind::hedge:
-        row_fields(t.hedge);
+        row_fields(t.hedge, t.units);
         break;
       case ToolKind::grid:
-        number("Spacing", t.grid.spacing_m, 0.5f, 30.0f, "%.1f m", "Distance from tree to tree along a row");
-        number("Rows", t.grid.row_gap_m, 0.5f, 30.0f, "%.1f m", "Distance from row to row");
+        length("Spacing", t.grid.spacing_m, 0.5f, 30.0f, t.units, "Distance from tree to tree along a row");
+        length("Rows", t.grid.row_gap_m, 0.5f, 30.0f, t.units, "Distance from row to row");
         number("Turn", t.grid.rotation_deg, -90.0f, 90.0f, "%.0f\xc2\xb0", "Turn of the grid");
         break;
       case ToolKind::fill:
-        ImGui::SetNextItemWidth(140 * layout.scale);
-        ImGui::SliderFloat("Density", &t.per_hectare, 10, 10000, "%.0f / ha", ImGuiSliderFlags_Logarithmic);
-        explain("Trees on each hectare");
+        width_for("Density", "10000 / acre");
+        density_slider(t);
+        explain(t.units == Units::metres ? "Trees on each hectare" : "Trees on each acre");
         ImGui::SameLine();
         break;
       case ToolKind::raise:
       case ToolKind::lower:
       case ToolKind::noise:
-        number("Height", t.ground.amount_m, 0.1f, 10.0f, "%.1f m",
+        length("Height", t.ground.amount_m, 0.1f, 10.0f, t.units,
                "Height that a stroke adds or takes at full strength");
         [[fallthrough]];
       case ToolKind::smooth:
       case ToolKind::flatten:
+        number("Strength", t.ground.strength, 0.02f, 1.0f, "%.2f", "Share of the full effect");
+        break;
+      case ToolKind::hero:
+        number("Turn", t.hero_turn_deg, -180.0f, 180.0f, "%.0f\xc2\xb0", "Turn of the hero tree, counter-clockwise");
+        break;
+      case ToolKind::density:
+        number("Density", t.ground.density, 0.0f, 1.0f, "%.2f", "Share of the usual trees that will be planted there");
         number("Strength", t.ground.strength, 0.02f, 1.0f, "%.2f", "Share of the full effect");
         break;
       case ToolKind::exclude: {
@@ -322,6 +382,7 @@ void Panels::toolbar(App& app, const Layout& layout) {
       default:
         break;
     }
+    ImGui::PopStyleVar();
   }
   end_panel();
 }

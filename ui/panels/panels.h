@@ -36,6 +36,7 @@ struct Panels {
   /// What the menu and the shortcuts do alike.
   static void ask_open(App& app);
   static void ask_import(App& app, ImportKind kind);
+  static void ask_hero(App& app);
   static void ask_save_as(App& app, std::function<void()> then = {});
   static void save(App& app, std::function<void()> then = {});
   static void keep_as_hero(App& app);
@@ -43,7 +44,10 @@ struct Panels {
  private:
   static void tree_page(App& app);
   static void trees_page(App& app);
+  static void hero_page(App& app);
+  static void underlay_fields(App& app);
   static void site_page(App& app);
+  static void sun_fields(App& app);
   static void growth_widgets(App& app, const scene::Tree& tree);
 };
 

@@ -6,12 +6,16 @@
 #include "scene/settings_edits.h"
 #include "scene/tree_parameters.h"
 #include "ui/panels/panels.h"
+#include "ui/tools/standing_edits.h"
 #include "ui/widgets/dials.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/slider.h"
 
 // The bars at the sides: what is planted, and what is selected.
 namespace bosquet::ui {
 namespace {
+
+constexpr float kOldest = 100;  ///< years that the slider goes to
 
 std::string readable(std::string name) {
   for (char& c : name)
@@ -64,6 +68,23 @@ void draw_habit(const scene::Species& species, ImVec2 low, ImVec2 size, float ta
   draw->PathFillConvex(IM_COL32(112, 156, 84, 255));
 }
 
+// What a parameter does: a small tree with a low value of it beside one with a high value, all else as it is.
+void draw_low_and_high(const growth::Parameters& p, std::string_view name, double few, double many, float scale) {
+  constexpr float kWidth = 120, kHeight = 110;
+  static SchematicTree low, high;
+  const auto draw = [&](SchematicTree& tree, double value, const char* words) {
+    const scene::SharedList<scene::ParameterOverride> one{{"growth." + std::string(name), value}};
+    if (const auto changed = scene::with_overrides(p, one)) tree.set(*changed);
+    ImGui::BeginGroup();
+    tree.draw(kWidth * scale, kHeight * scale);
+    ImGui::TextDisabled("%s", words);
+    ImGui::EndGroup();
+  };
+  draw(low, few, "low");
+  ImGui::SameLine();
+  draw(high, many, "high");
+}
+
 }  // namespace
 
 void Panels::species_bar(App& app, const Layout& layout) {
@@ -112,10 +133,10 @@ void Panels::species_bar(App& app, const Layout& layout) {
         draw_habit(species, {low.x + 4, low.y + 3}, {42 * layout.scale, row - 10 * layout.scale}, tallest);
       draw->AddText({low.x + 56 * layout.scale, low.y + 8 * layout.scale}, ImGui::GetColorU32(ImGuiCol_Text),
                     readable(species.name).c_str());
-      draw->AddText(
-          {low.x + 56 * layout.scale, low.y + 27 * layout.scale}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-          fmt::format("{:.0f} %   {:.0f} m", sum > 0 ? 100.0f * share / sum : 0.0f, species.shape.mature_height_m)
-              .c_str());
+      draw->AddText({low.x + 56 * layout.scale, low.y + 27 * layout.scale}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                    fmt::format("{:.0f} %   {}", sum > 0 ? 100.0f * share / sum : 0.0f,
+                                length_words(species.shape.mature_height_m, s.settings.units, 0))
+                        .c_str());
       if (!held)
         explain(fmt::format("{} ({})\nDrag sideways: how much of it the brush plants", readable(species.name),
                             species.botanical_name));
@@ -141,7 +162,22 @@ void Panels::species_bar(App& app, const Layout& layout) {
     if (!document->heroes.empty()) {
       ImGui::Spacing();
       ImGui::TextDisabled("Hero trees");
-      for (const scene::HeroTree& hero : document->heroes) ImGui::BulletText("%s", hero.name.c_str());
+      for (const scene::HeroTree& hero : document->heroes) {
+        ImGui::PushID(hero.id);
+        const bool chosen = s.selected_hero() == &hero;
+        const float copy = ImGui::CalcTextSize("Again").x + 2 * ImGui::GetStyle().FramePadding.x;
+        const float name = ImGui::GetContentRegionAvail().x - copy - ImGui::GetStyle().ItemSpacing.x;
+        if (ImGui::Selectable(hero.name.c_str(), chosen, 0, {name, 0})) s.select({hero.id});
+        mark(app, hero.name);
+        explain(hero.name);
+        ImGui::SameLine();
+        if (ImGui::SmallButton("Again")) {
+          s.settings.hero = hero_in_hand(*document, hero);
+          s.take(ToolKind::hero);
+        }
+        explain("Sets this tree once more where you click");
+        ImGui::PopID();
+      }
     }
   }
   end_panel();
@@ -158,10 +194,13 @@ void Panels::keep_as_hero(App& app) {
   }
   auto edit = scene::keep_as_hero(*s.document(), tree->id, grown->second.grown.skeleton,
                                   fmt::format("{} {}", readable(s.document()->species_of(*tree).name), tree->id));
-  if (edit)
-    s.apply(std::move(*edit));
-  else
+  if (!edit) {
     app.say(edit.error().message);
+    return;
+  }
+  const std::int32_t hero = s.document()->next_standing_id;
+  s.apply(std::move(*edit));
+  s.select({hero});
 }
 
 void Panels::growth_widgets(App& app, const scene::Tree& tree) {
@@ -198,11 +237,13 @@ void Panels::growth_widgets(App& app, const scene::Tree& tree) {
   app.schematic_.set(p);
   app.schematic_.draw(ImGui::GetContentRegionAvail().x, 150 * app.scale_);
   explain("How a young tree with these numbers grows in one plane");
-  FieldVisitor visitor([](std::string_view name) {
-    return name == "apical_dominance" || name == "light_sensitivity" || name == "shedding_threshold" ||
-           name == "max_shoot_length" || name == "occupancy_radius";
-  });
-  ImGui::PushItemWidth(0.42f * ImGui::GetContentRegionAvail().x);
+  FieldVisitor visitor(
+      [](std::string_view name) {
+        return name == "apical_dominance" || name == "light_sensitivity" || name == "shedding_threshold" ||
+               name == "max_shoot_length" || name == "occupancy_radius";
+      },
+      [&](std::string_view name, double few, double many) { draw_low_and_high(p, name, few, many, app.scale_); });
+  ImGui::PushItemWidth(-1);
   describe(p, visitor);
   ImGui::PopItemWidth();
   changed |= visitor.changed();
@@ -234,18 +275,22 @@ void Panels::tree_page(App& app) {
   const auto grown = app.view_->grown().find(tree.id);
   if (grown != app.view_->grown().end()) {
     const scene::GrownTree& g = grown->second.grown;
-    ImGui::Text("%.1f m high, crown %.1f m, trunk %.0f cm", g.measures.height_m, g.measures.crown_diameter_m,
-                100.0f * g.measures.trunk_diameter_m);
+    const bool metric = s.settings.units == Units::metres;
+    const std::string trunk = metric ? fmt::format("{:.0f} cm", 100.0f * g.measures.trunk_diameter_m)
+                                     : fmt::format("{:.1f}\"", 12.0f * kFeetPerMetre * g.measures.trunk_diameter_m);
+    ImGui::Text("%s high, crown %s, trunk %s", length_words(g.measures.height_m, s.settings.units).c_str(),
+                length_words(g.measures.crown_diameter_m, s.settings.units).c_str(), trunk.c_str());
     ImGui::Text("%d internodes, about %.0f years", g.measures.internodes, g.age_years);
   } else {
     ImGui::TextDisabled("growing...");
   }
-  ImGui::Text("at %.2f east, %.2f north", tree.at.x, tree.at.y);
+  ImGui::Text("at %s east, %s north", length_words(tree.at.x, s.settings.units, 2).c_str(),
+              length_words(tree.at.y, s.settings.units, 2).c_str());
   const std::vector<std::int32_t> one{tree.id};
-  ImGui::PushItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
+  ImGui::PushItemWidth(-1);
   float scale = tree.scale_height;
   ImGui::BeginDisabled(tree.locked);
-  if (ImGui::SliderFloat("Size", &scale, 0.1f, 1.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp) && scale > 0) {
+  if (slider("Size", scale, 0.1f, 1.5f, "%.2f") && scale > 0) {
     if (app.inspector_drag_ == 0) app.inspector_drag_ = new_drag();
     const float by = scale / tree.scale_height;
     if (auto edit = scene::scale_trees(*document, one, by, by)) s.apply(std::move(*edit), app.inspector_drag_);
@@ -275,7 +320,7 @@ void Panels::trees_page(App& app) {
   ImGui::SameLine();
   if (ImGui::Button("Unlock")) s.apply(scene::lock_trees(*document, s.selection(), false));
   ImGui::SameLine();
-  if (ImGui::Button("Delete")) s.apply(scene::remove_trees(*document, s.selection()));
+  if (ImGui::Button("Delete")) s.apply(remove_selected(*document, s.selection()));
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##species", "Replace by species...")) {
     for (std::size_t k = 0; k < document->species.size(); ++k)
@@ -300,43 +345,33 @@ void Panels::site_page(App& app) {
   if (app.fonts_.heading) ImGui::PushFont(app.fonts_.heading);
   ImGui::TextUnformatted("Site");
   if (app.fonts_.heading) ImGui::PopFont();
-  ImGui::Text("%.0f x %.0f m, %zu trees", size.x, size.y, document->trees->size());
+  const Units units = s.settings.units;
+  ImGui::Text("%s x %s, %zu trees", length_words(size.x, units, 0).c_str(), length_words(size.y, units, 0).c_str(),
+              document->trees->size());
 
   ImGui::Separator();
   ImGui::TextUnformatted("Years");
-  ImGui::Checkbox("All grown", &app.all_grown_);
-  explain("Every tree at its final height");
-  if (ImGui::IsItemEdited() || ImGui::IsItemDeactivatedAfterEdit()) {
-    if (!app.all_grown_ && app.year_ >= 100) app.year_ = 30;
-    s.set_year(app.all_grown_ ? std::optional<float>() : std::optional<float>(app.year_));
+  if (s.growth().year) app.year_ = *s.growth().year;
+  bool all_grown = !s.growth().year;
+  if (ImGui::Checkbox("All grown", &all_grown)) {
     app.playing_ = false;
+    if (!all_grown && app.year_ >= kOldest) app.year_ = 30;
+    s.set_year(all_grown ? std::optional<float>() : std::optional<float>(app.year_));
   }
+  explain("Every tree at its final height");
   ImGui::SameLine();
   if (ImGui::Button(app.playing_ ? "Stop" : "Play", {60 * app.scale_, 0})) {
     app.playing_ = !app.playing_;
-    if (app.playing_ && (app.year_ >= 100 || app.all_grown_)) app.year_ = 1;
+    if (app.playing_ && (app.year_ >= kOldest || all_grown)) app.year_ = 1;
   }
+  explain("Lets the scene grow from planting to maturity");
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::SliderFloat("##year", &app.year_, 1, 100, app.all_grown_ ? "fully grown" : "%.0f years",
-                         ImGuiSliderFlags_AlwaysClamp)) {
-    app.all_grown_ = false;
-    s.set_year(app.year_);
-  }
+  float year = all_grown ? kOldest : app.year_;
+  if (slider("##year", year, 1, kOldest, all_grown ? "fully grown" : "%.0f years")) s.set_year(app.year_ = year);
 
   ImGui::Separator();
   ImGui::TextUnformatted("Sun");
-  scene::Sun sun = document->sun;
-  bool moved = false;
-  ImGui::PushItemWidth(0.6f * ImGui::GetContentRegionAvail().x);
-  moved |= ImGui::SliderFloat("From", &sun.azimuth_deg, 0, 360, "%.0f\xc2\xb0", ImGuiSliderFlags_AlwaysClamp);
-  explain("Where the light comes from, from north clockwise");
-  moved |= ImGui::SliderFloat("Height", &sun.elevation_deg, 1, 90, "%.0f\xc2\xb0", ImGuiSliderFlags_AlwaysClamp);
-  explain("Above the horizon");
-  ImGui::PopItemWidth();
-  if (moved) {
-    if (app.inspector_drag_ == 0) app.inspector_drag_ = new_drag();
-    s.apply(scene::set_sun(*document, sun), app.inspector_drag_);
-  }
+  sun_fields(app);
 
   ImGui::Separator();
   ImGui::TextUnformatted("View");
@@ -349,11 +384,12 @@ void Panels::site_page(App& app) {
   if (app.view_->show == Show::regions) {
     float slice = app.view_->slice_m.value_or(6.0f);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##slice", &slice, 0, 30, "layer at %.1f m")) app.view_->slice_m = slice;
+    if (length_slider("Layer", slice, 0, 30, s.settings.units)) app.view_->slice_m = slice;
   }
-  ImGui::PushItemWidth(0.6f * ImGui::GetContentRegionAvail().x);
-  ImGui::SliderFloat("Exposure", &app.view_->look.exposure_ev, -2, 2, "%+.1f EV");
-  ImGui::PopItemWidth();
+  ImGui::SetNextItemWidth(-1);
+  slider("Exposure", app.view_->look.exposure_ev, -2, 2, "%+.1f EV");
+  explain("Makes the picture brighter or darker");
+  if (!document->underlay.file.empty()) underlay_fields(app);
   if (!ImGui::IsAnyItemActive()) app.inspector_drag_ = 0;
 
   ImGui::Separator();
@@ -370,6 +406,8 @@ void Panels::inspector(App& app, const Layout& layout) {
                   {layout.right, layout.screen.y - top - layout.bottom})) {
     if (app.session_->selected_tree())
       tree_page(app);
+    else if (app.session_->selected_hero())
+      hero_page(app);
     else if (!app.session_->selection().empty())
       trees_page(app);
     else

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "distribution/region.h"
+#include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
 namespace {
@@ -39,6 +40,28 @@ Preview SingleTool::preview(const ToolScene& scene) const {
   const std::size_t species = std::min(scene.settings->species, scene.document->species.size() - 1);
   preview.ring = {*pointer_, 0.5f * scene.settings->scale * scene.document->species[species]->shape.crown_width_m};
   preview.places.push_back(*pointer_);
+  return preview;
+}
+
+ToolAnswer HeroTool::handle(const ToolEvent& event, const ToolScene& scene) {
+  if (event.ground) pointer_ = to_plan(*event.ground);
+  if (event.event.kind != Event::Kind::press || event.event.button != Button::left || !event.ground) return {};
+  const std::optional<HeroInHand>& hero = scene.settings->hero;
+  if (!hero) {
+    ToolAnswer answer;
+    answer.message = "No hero tree is in hand: File > Import > Hero tree, or keep a grown tree as one";
+    return answer;
+  }
+  return answered(place_hero(*scene.document, *hero, *pointer_, scene.settings->hero_turn_deg));
+}
+
+Preview HeroTool::preview(const ToolScene& scene) const {
+  Preview preview;
+  const std::optional<HeroInHand>& hero = scene.settings->hero;
+  if (!pointer_ || !hero) return preview;
+  preview.ring = {*pointer_, extent_of(*hero->skeleton).radius_m};
+  preview.places.push_back(*pointer_);
+  preview.label = hero->name;
   return preview;
 }
 
@@ -160,8 +183,9 @@ Preview MeasureTool::preview(const ToolScene& scene) const {
     if (i + 1 < preview.line.size()) length += glm::length(b - a);
     area += 0.5f * (a.x * b.y - b.x * a.y);
   }
-  if (preview.line.size() > 1) preview.label = fmt::format("{:.2f} m", length);
-  if (preview.line.size() > 2) preview.label += fmt::format(", encloses {:.1f} m\xc2\xb2", std::abs(area));
+  if (preview.line.size() > 1) preview.label = length_words(length, scene.settings->units, 2);
+  if (preview.line.size() > 2)
+    preview.label += fmt::format(", encloses {}", area_words(std::abs(area), scene.settings->units));
   return preview;
 }
 

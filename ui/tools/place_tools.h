@@ -17,6 +17,16 @@ class SingleTool : public Tool {
   std::optional<Vec2> pointer_;
 };
 
+/// Sets the hero tree in hand, as it is, where it is clicked.
+class HeroTool : public Tool {
+ public:
+  ToolAnswer handle(const ToolEvent& event, const ToolScene& scene) override;
+  Preview preview(const ToolScene& scene) const override;
+
+ private:
+  std::optional<Vec2> pointer_;
+};
+
 /// A polyline clicked point by point.
 class PathTool : public Tool {
  public:

@@ -7,6 +7,7 @@
 
 #include "scene/site_edits.h"
 #include "ui/pick.h"
+#include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
 namespace {
@@ -39,7 +40,7 @@ ToolAnswer SelectTool::take(const std::vector<std::int32_t>& trees, const ToolSc
 ToolAnswer SelectTool::move_to(const ToolEvent& event) {
   ToolAnswer answer;
   if (!event.ground) return answer;
-  auto edit = scene::move_trees(*before_, moved_, to_plan(*event.ground) - from_);
+  auto edit = move_selected(*before_, moved_, to_plan(*event.ground) - from_);
   if (!edit) {
     answer.message = edit.error().message;
     return answer;
@@ -112,7 +113,7 @@ ToolAnswer SelectTool::handle(const ToolEvent& event, const ToolScene& scene) {
       if (!e.modifiers.control || scene.selection.empty()) return {};
       const float by = std::pow(kScaleOfNotch, e.scroll);
       ToolAnswer answer;
-      auto edit = scene::scale_trees(*scene.document, scene.selection, by, by);
+      auto edit = scale_selected(*scene.document, scene.selection, by);
       if (!edit)
         answer.message = edit.error().message;
       else
@@ -122,7 +123,7 @@ ToolAnswer SelectTool::handle(const ToolEvent& event, const ToolScene& scene) {
     case Event::Kind::key_press:
       if ((e.key == kKeyDelete || e.key == kKeyBackspace) && !scene.selection.empty()) {
         ToolAnswer answer;
-        answer.edit = scene::remove_trees(*scene.document, scene.selection);
+        answer.edit = remove_selected(*scene.document, scene.selection);
         if (!answer.edit->skipped.empty())
           answer.message = fmt::format("{} stay: they are locked", scene::trees_in_words(answer.edit->skipped.size()));
         answer.selection.emplace();
@@ -215,9 +216,10 @@ ToolAnswer WaterTool::handle(const ToolEvent& event, const ToolScene& scene) {
 Preview WaterTool::preview(const ToolScene& scene) const {
   Preview preview;
   if (before_ && scene.document->terrain->water_level_m)
-    preview.label = fmt::format("water at {:.2f} m", *scene.document->terrain->water_level_m);
+    preview.label =
+        fmt::format("water at {}", length_words(*scene.document->terrain->water_level_m, scene.settings->units, 2));
   else if (pointer_)
-    preview.label = fmt::format("ground {:.2f} m", pointer_->y);
+    preview.label = fmt::format("ground {}", length_words(pointer_->y, scene.settings->units, 2));
   return preview;
 }
 

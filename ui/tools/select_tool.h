@@ -1,4 +1,4 @@
-// Select tool: takes trees by click, box (drag over ground) or lasso (drag with Alt), adds with Shift, moves what is
+// Select tool: takes trees and hero trees by click, box (drag over ground) or lasso (drag with Alt), adds with Shift, moves what is
 // selected by dragging it, scales it with Control and the wheel, deletes it.
 #pragma once
 

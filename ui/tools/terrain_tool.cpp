@@ -49,11 +49,15 @@ ToolAnswer TerrainTool::handle(const ToolEvent& event, const ToolScene& scene) {
       if (e.button != Button::left || !event.ground) return {};
       terrain::Stroke stroke = scene.settings->ground;
       stroke.kind = kind_;
-      // Shift turns a brush into its helper: smoothing for those that shape, the other way for exclusions.
-      if (e.modifiers.shift)
-        stroke.kind = kind_ == terrain::BrushKind::exclude   ? terrain::BrushKind::include
-                      : kind_ == terrain::BrushKind::include ? terrain::BrushKind::exclude
-                                                             : terrain::BrushKind::smooth;
+      // Shift turns a brush into its helper: smoothing for those that shape, the other way for the rest.
+      if (e.modifiers.shift) {
+        if (kind_ == terrain::BrushKind::density)
+          stroke.density = 1.0f;
+        else
+          stroke.kind = kind_ == terrain::BrushKind::exclude   ? terrain::BrushKind::include
+                        : kind_ == terrain::BrushKind::include ? terrain::BrushKind::exclude
+                                                               : terrain::BrushKind::smooth;
+      }
       stroke.radius_m = scene.settings->radius_m;
       stroke.area = scene.settings->area;
       stroke.points.clear();

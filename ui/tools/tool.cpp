@@ -21,6 +21,8 @@ constexpr std::array<ToolInfo, kToolCount> kTools{{
     {ToolKind::grid, "Grid", "Click round the area; Enter, or its first point, plants", 'G', false},
     {ToolKind::hedge, "Hedge", "Click along the line; Enter or a double click plants", 'H', false},
     {ToolKind::fill, "Fill area", "Click round the area; Enter, or its first point, plants", 'P', false},
+    {ToolKind::hero, "Hero tree",
+     "Click where the hero tree in hand shall stand; it comes from a file or from the left", 'N', false},
     {ToolKind::erase, "Erase", "Hold and drag: trees under the brush go, locked ones stay", 'E', true},
     {ToolKind::raise, "Raise ground", "Hold and drag; Shift smooths", '1', true},
     {ToolKind::lower, "Lower ground", "Hold and drag; Shift smooths", '2', true},
@@ -30,6 +32,8 @@ constexpr std::array<ToolInfo, kToolCount> kTools{{
     {ToolKind::noise, "Roughen ground", "Hold and drag; Shift smooths", '5', true},
     {ToolKind::exclude, "Keep free", "Hold and drag: nothing is planted there; Shift lets plant again", '6', true},
     {ToolKind::include, "Let plant", "Hold and drag: planting is allowed there again; Shift keeps free", '7', true},
+    {ToolKind::density, "Planting density",
+     "Hold and drag: brushes and areas plant so much of the usual there; Shift plants all again", '8', true},
     {ToolKind::water, "Water level", "Press on the ground and drag up or down; Delete takes the water away", 'W',
      false},
     {ToolKind::measure, "Measure", "Click points; Enter ends", 'M', false},
@@ -55,6 +59,8 @@ std::unique_ptr<Tool> make_tool(ToolKind kind) {
       return std::make_unique<AreaTool>(true);
     case ToolKind::fill:
       return std::make_unique<AreaTool>(false);
+    case ToolKind::hero:
+      return std::make_unique<HeroTool>();
     case ToolKind::erase:
       return std::make_unique<EraseTool>();
     case ToolKind::raise:
@@ -71,6 +77,8 @@ std::unique_ptr<Tool> make_tool(ToolKind kind) {
       return std::make_unique<TerrainTool>(terrain::BrushKind::exclude);
     case ToolKind::include:
       return std::make_unique<TerrainTool>(terrain::BrushKind::include);
+    case ToolKind::density:
+      return std::make_unique<TerrainTool>(terrain::BrushKind::density);
     case ToolKind::water:
       return std::make_unique<WaterTool>();
     case ToolKind::measure:

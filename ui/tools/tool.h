@@ -31,6 +31,7 @@ enum class ToolKind {
   grid,
   hedge,
   fill,
+  hero,
   erase,
   raise,
   lower,
@@ -39,16 +40,17 @@ enum class ToolKind {
   noise,
   exclude,
   include,
+  density,
   water,
   measure,
 };
-inline constexpr int kToolCount = 17;
+inline constexpr int kToolCount = 19;
 
 /// An event with what it points at.
 struct ToolEvent {
   Event event;
-  std::optional<Vec3> ground;  ///< under the pointer
-  std::optional<std::int32_t> tree;
+  std::optional<Vec3> ground;        ///< under the pointer
+  std::optional<std::int32_t> tree;  ///< or hero tree, below 0
 };
 
 /// What tools work on.

@@ -11,7 +11,7 @@
 namespace bosquet::ui {
 namespace {
 
-constexpr float kHandle = 5.0f;
+constexpr float kHandle = 5.0f;  ///< radius at a scale of 1
 constexpr ImU32 kWood = IM_COL32(139, 107, 74, 255);
 constexpr int kBuds = 12;
 
@@ -26,6 +26,7 @@ ImU32 colour(ImGuiCol index, float alpha = 1.0f) { return ImGui::GetColorU32(ind
 struct Canvas {
   ImVec2 low, centre;
   float size, scale;  ///< scale: pixels to half the square
+  float unit;         ///< pixels to one at a scale of 1
   bool held, began;
   ImVec2 mouse;
   ImDrawList* draw;
@@ -39,13 +40,14 @@ struct Canvas {
     mouse = ImGui::GetIO().MousePos;
     centre = low + ImVec2{side / 2, side / 2};
     scale = side / 2;
+    unit = ImGui::GetFontSize() / 15.0f;
     draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(low, low + ImVec2{side, side}, colour(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
     if (ImGui::IsItemHovered() || held)
       draw->AddRect(low, low + ImVec2{side, side}, colour(ImGuiCol_CheckMark, 0.6f), ImGui::GetStyle().FrameRounding);
   }
 
-  void handle(ImVec2 at) const { draw->AddCircleFilled(at, kHandle, colour(ImGuiCol_SliderGrabActive)); }
+  void handle(ImVec2 at) const { draw->AddCircleFilled(at, kHandle * unit, colour(ImGuiCol_SliderGrabActive)); }
   void text(ImVec2 at, const char* words) const { draw->AddText(at, colour(ImGuiCol_TextDisabled), words); }
 };
 
@@ -71,18 +73,18 @@ bool tropism_arrow(const char* id, float& set_point_angle_deg, float size) {
   bool changed = false;
   if (c.held && length(c.mouse - fork) > 2.0f)
     changed = set(set_point_angle_deg, std::clamp(std::round(angle_from_upright(c.mouse - fork)), 0.0f, 180.0f));
-  c.draw->AddLine({fork.x, c.low.y + 0.94f * size}, {fork.x, c.low.y + 0.06f * size}, kWood, 6.0f);
+  c.draw->AddLine({fork.x, c.low.y + 0.94f * size}, {fork.x, c.low.y + 0.06f * size}, kWood, 6.0f * c.unit);
   for (const float mark : {0.0f, 45.0f, 90.0f, 135.0f, 180.0f})
-    c.draw->AddLine(fork + 0.86f * c.scale * from_upright(mark), fork + 0.94f * c.scale * from_upright(mark),
-                    colour(ImGuiCol_TextDisabled), 1.0f);
+    c.draw->AddLine(fork + 0.78f * c.scale * from_upright(mark), fork + 0.86f * c.scale * from_upright(mark),
+                    colour(ImGuiCol_TextDisabled), c.unit);
   // A branch that leaves level and comes round to the set point.
   const ImVec2 toward = from_upright(set_point_angle_deg), tip = fork + 0.85f * c.scale * toward;
   const ImVec2 out = fork + ImVec2{0.35f * c.scale, 0.0f};
-  c.draw->AddBezierQuadratic(fork, out, tip, kWood, 4.0f);
-  c.draw->AddLine(fork, tip, colour(ImGuiCol_CheckMark), 1.5f);
+  c.draw->AddBezierQuadratic(fork, out, tip, kWood, 4.0f * c.unit);
+  c.draw->AddLine(fork, tip, colour(ImGuiCol_CheckMark), 1.5f * c.unit);
   const ImVec2 across{-toward.y, toward.x};
-  c.draw->AddTriangleFilled(tip, tip - 9.0f * toward + 5.0f * across, tip - 9.0f * toward - 5.0f * across,
-                            colour(ImGuiCol_CheckMark));
+  c.draw->AddTriangleFilled(tip, tip - 9.0f * c.unit * toward + 5.0f * c.unit * across,
+                            tip - 9.0f * c.unit * toward - 5.0f * c.unit * across, colour(ImGuiCol_CheckMark));
   c.handle(tip);
   return changed;
 }
@@ -104,16 +106,16 @@ bool branching_angles(const char* id, float& branching_angle_deg, float& deflect
     else
       changed = set(deflection_angle_deg, std::clamp(c.mouse.x > fork.x ? 0.0f : angle, 0.0f, 45.0f));
   }
-  c.draw->AddLine({fork.x, c.low.y + 0.96f * size}, fork, kWood, 6.0f);
-  c.draw->AddLine(fork, main_tip(), kWood, 5.0f);
-  c.draw->AddLine(fork, lateral_tip(), kWood, 3.5f);
+  c.draw->AddLine({fork.x, c.low.y + 0.96f * size}, fork, kWood, 6.0f * c.unit);
+  c.draw->AddLine(fork, main_tip(), kWood, 5.0f * c.unit);
+  c.draw->AddLine(fork, lateral_tip(), kWood, 3.5f * c.unit);
   // The straight way on, and both angles to it.
-  c.draw->AddLine(fork, fork + 0.9f * reach * from_upright(0), colour(ImGuiCol_TextDisabled, 0.5f), 1.0f);
+  c.draw->AddLine(fork, fork + 0.9f * reach * from_upright(0), colour(ImGuiCol_TextDisabled, 0.5f), c.unit);
   const float upright = -kPi / 2;
   c.draw->PathArcTo(fork, 0.45f * reach, upright, upright + radians(branching_angle_deg));
-  c.draw->PathStroke(colour(ImGuiCol_CheckMark), 0, 1.5f);
+  c.draw->PathStroke(colour(ImGuiCol_CheckMark), 0, 1.5f * c.unit);
   c.draw->PathArcTo(fork, 0.6f * reach, upright - radians(deflection_angle_deg), upright);
-  c.draw->PathStroke(colour(ImGuiCol_PlotHistogram), 0, 1.5f);
+  c.draw->PathStroke(colour(ImGuiCol_PlotHistogram), 0, 1.5f * c.unit);
   c.handle(main_tip());
   c.handle(lateral_tip());
   return changed;
@@ -140,12 +142,12 @@ bool weights_triangle(const char* id, float& straightness, float& tropism, float
     changed |= set(space, (100.0f - tens - bs) / 100.0f);
   }
   c.draw->AddTriangleFilled(corner[0], corner[1], corner[2], colour(ImGuiCol_WindowBg));
-  c.draw->AddTriangle(corner[0], corner[1], corner[2], colour(ImGuiCol_TextDisabled), 1.0f);
+  c.draw->AddTriangle(corner[0], corner[1], corner[2], colour(ImGuiCol_TextDisabled), c.unit);
   const ImVec2 at{*weight[0] * corner[0].x + *weight[1] * corner[1].x + *weight[2] * corner[2].x,
                   *weight[0] * corner[0].y + *weight[1] * corner[1].y + *weight[2] * corner[2].y};
   // The star: a ray toward each corner, as long as its share.
   for (std::size_t k = 0; k < 3; ++k)
-    c.draw->AddLine(at, at + *weight[k] * (corner[k] - at), colour(ImGuiCol_CheckMark), 2.0f);
+    c.draw->AddLine(at, at + *weight[k] * (corner[k] - at), colour(ImGuiCol_CheckMark), 2.0f * c.unit);
   c.handle(at);
   const float line = ImGui::GetTextLineHeight();
   c.text({corner[0].x - ImGui::CalcTextSize("straight").x / 2, corner[0].y - line}, "straight");
@@ -190,15 +192,15 @@ bool bud_ellipse(const char* id, float& vertical, float& level, float& offset, f
     const float t = (-B + std::sqrt(std::max(0.0f, B * B - A * C))) / A;
     const float good = std::clamp(0.5f * t, 0.0f, 1.0f);
     const ImU32 tint = ImGui::ColorConvertFloat4ToU32({0.85f - 0.6f * good, 0.25f + 0.5f * good, 0.22f, 1.0f});
-    c.draw->AddLine(c.centre, place(t * dx, t * dy), tint, 2.0f);
-    c.draw->AddCircleFilled(place(t * dx, t * dy), 3.0f, tint);
+    c.draw->AddLine(c.centre, place(t * dx, t * dy), tint, 2.0f * c.unit);
+    c.draw->AddCircleFilled(place(t * dx, t * dy), 3.0f * c.unit, tint);
   }
   c.draw->PathClear();
   for (int k = 0; k < 48; ++k) {
     const float a = 2.0f * kPi * static_cast<float>(k) / 48;
     c.draw->PathLineTo(place(level * std::sin(a), offset + vertical * std::cos(a)));
   }
-  c.draw->PathStroke(colour(ImGuiCol_CheckMark), ImDrawFlags_Closed, 1.5f);
+  c.draw->PathStroke(colour(ImGuiCol_CheckMark), ImDrawFlags_Closed, 1.5f * c.unit);
   c.draw->AddCircleFilled(c.centre, 0.07f * size, kWood);
   c.handle(place(0, offset + vertical));
   c.handle(place(level, offset));

@@ -3,14 +3,16 @@
 #include <cctype>
 #include <cmath>
 
+#include "ui/widgets/slider.h"
+
 namespace bosquet::ui {
 namespace {
 
 constexpr float kTooltipWidth = 22.0f;  ///< in letters' heights
 
 void limits(std::string& text, const std::string& low, const std::string& high, std::string_view unit) {
-  text += "\n" + low + " to " + high;
-  if (!unit.empty()) text += " " + std::string(unit);
+  text.append("\n").append(low).append(" to ").append(high);
+  if (!unit.empty()) text.append(" ").append(unit);
 }
 
 std::string number(double v) {
@@ -47,10 +49,9 @@ bool real_field(const Real& info, float& value) {
   const auto low = static_cast<float>(info.low), high = static_cast<float>(info.high);
   const float span = high - low;
   const char* format = info.unit == "deg" ? "%.0f\xc2\xb0" : span <= 0.2f ? "%.4f" : span <= 20.0f ? "%.2f" : "%.1f";
-  const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp | (low > 0.0f && high / low > 500.0f ? ImGuiSliderFlags_Logarithmic : 0);
+  const ImGuiSliderFlags flags = low > 0.0f && high / low > 500.0f ? ImGuiSliderFlags_Logarithmic : 0;
   const std::string label = label_of(info.name, info.unit) + "##" + std::string(info.name);
-  const bool changed = ImGui::SliderFloat(label.c_str(), &value, low, high, format, flags);
+  const bool changed = slider(label.c_str(), value, low, high, format, flags);
   std::string text(info.meaning);
   limits(text, number(info.low), number(info.high), info.unit);
   explain(text);
@@ -59,7 +60,7 @@ bool real_field(const Real& info, float& value) {
 
 bool whole_field(const Whole& info, int& value) {
   const std::string label = label_of(info.name) + "##" + std::string(info.name);
-  const bool changed = ImGui::SliderInt(label.c_str(), &value, info.low, info.high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = slider(label.c_str(), value, info.low, info.high);
   std::string text(info.meaning);
   limits(text, std::to_string(info.low), std::to_string(info.high), {});
   explain(text);

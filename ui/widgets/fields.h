@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,21 +28,29 @@ bool choice_field(const Choice& info, int& value);
 void explain(std::string_view meaning);
 
 /// Visits a described struct and draws a field for each entry that `shown` lets through; tables are left out.
+/// `picture`, where there is one, adds to the tooltip of a number: it is told its name, a low and a high value.
+using TooltipPicture = std::function<void(std::string_view name, double few, double many)>;
 template <class Shown>
 class FieldVisitor {
  public:
-  explicit FieldVisitor(Shown shown) : shown_(std::move(shown)) {}
+  explicit FieldVisitor(Shown shown, TooltipPicture picture = {})
+      : shown_(std::move(shown)), picture_(std::move(picture)) {}
   bool changed() const { return changed_; }
 
   void operator()(const Real& info, float& value) {
-    if (shown_(info.name)) changed_ |= real_field(info, value);
+    if (!shown_(info.name)) return;
+    changed_ |= real_field(info, value);
+    const double part = kFromEnd * (info.high - info.low);
+    illustrate(info.name, info.low + part, info.high - part);
   }
   void operator()(const Real& info, double& value) {
     auto number = static_cast<float>(value);
     if (shown_(info.name) && real_field(info, number)) value = number, changed_ = true;
   }
   void operator()(const Whole& info, int& value) {
-    if (shown_(info.name)) changed_ |= whole_field(info, value);
+    if (!shown_(info.name)) return;
+    changed_ |= whole_field(info, value);
+    illustrate(info.name, info.low, info.high);
   }
   void operator()(const Switch& info, bool& value) {
     if (shown_(info.name)) changed_ |= switch_field(info, value);
@@ -58,7 +67,17 @@ class FieldVisitor {
   void operator()(const Tables&, std::vector<T>&) {}
 
  private:
+  static constexpr double kFromEnd = 0.1;  ///< the very ends are rarely trees
+
+  void illustrate(std::string_view name, double few, double many) const {
+    if (!picture_ || ImGui::IsMouseDown(0) || !ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    picture_(name, few, many);
+    ImGui::EndTooltip();
+  }
+
   Shown shown_;
+  TooltipPicture picture_;
   bool changed_ = false;
 };
 
