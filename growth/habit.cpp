@@ -7,7 +7,7 @@ namespace {
 
 /// The overridable numbers as files give them.
 struct Numbers {
-  float straightness, tropism, space, set_point_deg, branching_deg, deflection_deg;
+  float straightness, tropism, space, set_point_deg, sag_deg, branching_deg, deflection_deg;
   int max_shoot;
   float lambda, kappa, acrotony, s_v, s_p, e_v, shedding;
 };
@@ -19,7 +19,8 @@ void take(const std::optional<T>& given, T& value) {
 
 void apply(const Overrides& o, Numbers& n) {
   take(o.straightness, n.straightness), take(o.tropism, n.tropism), take(o.space, n.space);
-  take(o.set_point_angle_deg, n.set_point_deg), take(o.branching_angle_deg, n.branching_deg);
+  take(o.set_point_angle_deg, n.set_point_deg), take(o.sag_deg_per_m, n.sag_deg);
+  take(o.branching_angle_deg, n.branching_deg);
   take(o.deflection_angle_deg, n.deflection_deg), take(o.max_shoot_length, n.max_shoot);
   take(o.apical_dominance, n.lambda), take(o.light_sensitivity, n.kappa), take(o.acrotony, n.acrotony);
   take(o.gravimorphism_vertical, n.s_v), take(o.gravimorphism_level, n.s_p), take(o.gravimorphism_offset, n.e_v);
@@ -35,6 +36,7 @@ Habit prepare(const Numbers& n) {
 
   const SinCos set_point = sin_cos(radians(n.set_point_deg));
   h.set_point_cos = set_point.cos, h.set_point_sin = set_point.sin;
+  h.set_point = radians(n.set_point_deg), h.sag = radians(n.sag_deg);
   const SinCos branching = sin_cos(radians(n.branching_deg));
   h.branching_cos = branching.cos, h.branching_sin = branching.sin;
   const SinCos deflection = sin_cos(radians(n.deflection_deg));
@@ -57,6 +59,7 @@ Habits habits_at(const Parameters& p, float share) {
               p.tropism,
               p.space,
               order == 0 ? p.trunk_set_point_angle_deg : p.set_point_angle_deg,
+              p.sag_deg_per_m,
               p.branching_angle_deg,
               p.deflection_angle_deg,
               p.max_shoot_length,

@@ -15,6 +15,7 @@ inline constexpr int kOrders = 16;  ///< higher orders grow like the last
 struct Habit {
   float alpha, beta, gamma;
   float set_point_cos, set_point_sin;
+  float set_point, sag;  ///< radians; radians gained per metre of reach
   float branching_cos, branching_sin;
   float deflection_sin, deflection_cos;
   int max_shoot;  ///< n_max

@@ -42,6 +42,7 @@ inline constexpr std::array<std::string_view, 2> kBudsAtNames{"every_node", "sho
 struct Overrides {
   std::optional<float> straightness, tropism, space;
   std::optional<float> set_point_angle_deg;
+  std::optional<float> sag_deg_per_m;
   std::optional<float> branching_angle_deg;
   std::optional<float> deflection_angle_deg;
   std::optional<int> max_shoot_length;
@@ -93,6 +94,7 @@ struct Parameters {
   float straightness = 0.5f, tropism = 0.2f, space = 0.3f;  ///< alpha, beta, gamma
   float set_point_angle_deg = 45.0f;                        ///< theta
   float trunk_set_point_angle_deg = 0.0f;
+  float sag_deg_per_m = 0.0f;
   float branching_angle_deg = 50.0f;  ///< psi
   float deflection_angle_deg = 0.0f;  ///< delta
   // Buds.
@@ -102,6 +104,7 @@ struct Parameters {
   int whorl = 3;
   float scattered = 0.0f;
   float bole = 0.0f;
+  float crown_lift = 0.0f;
   float gravimorphism_vertical = 1.0f, gravimorphism_level = 1.0f, gravimorphism_offset = 0.0f;  ///< s_v, s_p, e_v
   // Stems.
   int stems = 1;
@@ -140,6 +143,10 @@ void describe_overrides(Changes& c, Visitor& visit) {
   visit_if_given(visit, Real{"space", "", 0, 1, "Weight of the direction of free space"}, c.space);
   visit_if_given(visit, Real{"set_point_angle_deg", "deg", 0, 180, "Angle from upright that axes turn to"},
                  c.set_point_angle_deg);
+  visit_if_given(
+      visit,
+      Real{"sag_deg_per_m", "deg/m", -20, 20, "Set-point angle that an axis gains with each metre it reaches out"},
+      c.sag_deg_per_m);
   visit_if_given(visit,
                  Real{"branching_angle_deg", "deg", 10, 120, "Angle between a lateral shoot and its parent axis"},
                  c.branching_angle_deg);
@@ -223,6 +230,8 @@ void describe(P& p, Visitor& visit) {
       p.set_point_angle_deg);
   visit(Real{"trunk_set_point_angle_deg", "deg", 0, 180, "Angle from upright that the trunk turns to"},
         p.trunk_set_point_angle_deg);
+  visit(Real{"sag_deg_per_m", "deg/m", -20, 20, "Set-point angle that an axis gains with each metre it reaches out"},
+        p.sag_deg_per_m);
   visit(Real{"branching_angle_deg", "deg", 10, 120, "Angle between a lateral shoot and its parent axis"},
         p.branching_angle_deg);
   visit(Real{"deflection_angle_deg", "deg", 0, 45, "Angle by which a growing lateral bud turns its parent axis away"},
@@ -234,6 +243,9 @@ void describe(P& p, Visitor& visit) {
   visit(Whole{"whorl", 1, 12, "Buds in a whorl"}, p.whorl);
   visit(Real{"scattered", "", 0, 1, "Share of the nodes between whorls that carry a bud"}, p.scattered);
   visit(Real{"bole", "", 0, 0.5, "Share of the final height below which the trunk sets no buds"}, p.bole);
+  visit(Real{"crown_lift", "", 0, 0.8,
+             "Share of the final height below which the grown trunk has lost its first branches"},
+        p.crown_lift);
   visit(Real{"gravimorphism_vertical", "", 0.05, 4, "Half-axis of the bud ellipse across the axis, upward"},
         p.gravimorphism_vertical);
   visit(Real{"gravimorphism_level", "", 0.05, 4, "Half-axis of the bud ellipse across the axis, level"},

@@ -3,6 +3,9 @@
 // Source    Takenaka 1994; Longay 2014, 4.3.2: a branch is shed when vigor / size < Th
 // Decision  size in internodes at detail 1, both as they were when vigor was shared; v at the root is Q at the root, so
 //           v / size is about the mean exposure of its internodes
+// Model     the foot of the crown rises to crown_lift * h^2 / h_max at height h, and the first branches of a trunk fall when
+//           it has passed them: they are temporary, shaded and far from what they cost (a pine's or a birch's low limbs
+//           die in the open too). Each branch has its own share of that height, between 0.6 and 1.2
 #include <cstddef>
 
 #include "growth/tree.h"
@@ -21,7 +24,20 @@ void fall(Tree& tree, std::size_t i) {
   ++tree.work.shadow_updates;
 }
 
+constexpr std::uint64_t kOfBranch = std::uint64_t{1} << 40;  ///< numbers of the tree's stream that growth never reaches
+
 }  // namespace
+
+bool outgrown(const Tree& tree, std::int32_t node) {
+  const auto i = static_cast<std::size_t>(node);
+  const Internode& base = tree.internodes[i];
+  if (base.order != 1 || base.parent < 0) return false;
+  const float foot = tree.parameters->crown_lift * tree.height_m * tree.height_m / tree.input->max_height_m;
+  const float at = tree.wood.distal[static_cast<std::size_t>(base.parent)].y;
+  if (at >= 1.2f * foot) return false;
+  const float own = static_cast<float>(tree.random.at(kOfBranch + tree.wood.axis[i]) >> 40) * 0x1p-24f;
+  return at < foot * (0.6f + 0.6f * own);
+}
 
 void shed(Tree& tree) {
   if (tree.failing.empty()) return;

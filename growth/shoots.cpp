@@ -3,6 +3,8 @@
 // Source    Longay 2014, 4.3.2 (fate, eq. 4.3), 4.4 (direction, eq. 4.5; deflection), 6.6 (asymmetry, eq. 6.5)
 // Model     n = floor(v / v_max * n_max); H' = normalize(alpha*H + beta*F + gamma*E), F the direction of
 //           S + (1 - sqrt(h/h_max)) * V, S the world's up turned by the set-point angle in the vertical plane through H
+// Decision  wood once grown stays, so a limb that sags under its length is one whose set-point sinks as its tip reaches out
+//           from the tree's foot; the tips of later phases may rise again
 // Decision  deflection turns last season's wood only: for each growing lateral bud on it, the part of the shoot above
 //           the bud's node turns rigidly about the node, away from the bud, base first
 // Decision  V leans a trunk only where its region goes on that way: pressed against its border it grows by S alone
@@ -35,8 +37,8 @@ float longest_shoot(const Tree& tree, std::uint8_t order) {
   return kShortestShoot + (grown_up - kShortestShoot) * tree.height_m / youth;
 }
 
-/// S for an axis with heading h.
-Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h) {
+/// S for an axis with heading h whose tip is at `at`.
+Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h, const Vec3& at) {
   Vec3 level{h.x, 0.0f, h.z};
   const float length = std::sqrt(h.x * h.x + h.z * h.z);
   if (length > kNearlyVertical) {
@@ -46,6 +48,11 @@ Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h) {
   } else {
     const SinCos azimuth = sin_cos(2.0f * kPi * tree.random.uniform());
     level = {azimuth.cos, 0.0f, azimuth.sin};
+  }
+  if (habit.sag != 0.0f) {
+    const float reach = std::sqrt(at.x * at.x + at.z * at.z);
+    const SinCos angle = sin_cos(std::clamp(habit.set_point + habit.sag * reach, 0.0f, kPi));
+    return angle.cos * kUp + angle.sin * level;
   }
   return habit.set_point_cos * kUp + habit.set_point_sin * level;
 }
@@ -152,7 +159,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
 
   const Vec3 h = buds[b].direction;
   const Vec3 space = normalised_or(buds.claimed[b], h);
-  const Vec3 s = set_point(tree, habit, h);
+  const Vec3 s = set_point(tree, habit, h, buds[b].at);
   const auto toward = [&](const Vec3& tropism) {
     Vec3 heading = habit.alpha * h + habit.beta * tropism + habit.gamma * space;
     if (tree.parameters->planar) heading.z = 0.0f;

@@ -238,6 +238,9 @@ inline void lose_lateral(Tree& tree, std::int32_t node) {
 /// Gives bare internodes the vigor that passes them, as last shared.
 void fill_in_vigor(Tree& tree);
 
+/// True for a branch of the trunk that leaves it below the rising foot of the crown (shedding.cpp).
+bool outgrown(const Tree& tree, std::int32_t node);
+
 /// Takes off branches whose vigor per internode is too small, and their buds (shedding.cpp).
 void shed(Tree& tree);
 

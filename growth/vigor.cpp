@@ -116,6 +116,7 @@ void share_vigor(Tree& tree) {
 
   // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
   tree.failing.resize(tree.standing.size());
+  const bool lifts = tree.parameters->crown_lift > 0.0f;
   std::size_t failing = 0, kept = 0;
   for (const std::int32_t node : tree.standing) {
     Internode& i = in[static_cast<std::size_t>(node)];
@@ -131,7 +132,8 @@ void share_vigor(Tree& tree) {
       const std::array<float, 2> share{1.0f, q};
       v = in[static_cast<std::size_t>(i.parent)].rate[i.way] * share[i.way];
       tree.failing[failing] = node;
-      failing += (i.way == kLateral) & (v < habit.shedding * i.gathered[kStanding]);
+      const bool falls = v < habit.shedding * i.gathered[kStanding] || (lifts && outgrown(tree, node));
+      failing += (i.way == kLateral) & falls;
     }
     wood.vigor[static_cast<std::size_t>(node)] = v;
     i.rate[kMain] = v * (main * part);

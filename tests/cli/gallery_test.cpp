@@ -81,12 +81,12 @@ TEST(Sheet, APictureLetsThePageThroughByItsCover) {
 // Heights in pixels, from the ground line up, of the figure and of the trees: the first columns with ink are the
 // figure's, the rest the trees'.
 TEST(Gallery, ThePersonAndTheTreesStandOnOneLineAtOneScale) {
-  auto birch = scene::builtin_species("silver_birch");
-  ASSERT_TRUE(birch);
+  auto maple = scene::builtin_species("norway_maple");
+  ASSERT_TRUE(maple);
   GalleryOptions options;
   options.ages = {9.0f};
   options.width = 700, options.height = 600;
-  auto sheet = draw_gallery({*birch}, options, nullptr);
+  auto sheet = draw_gallery({*maple}, options, nullptr);
   ASSERT_TRUE(sheet) << sheet.error().message;
   EXPECT_EQ(sheet->width, 700);
   EXPECT_LE(sheet->height, 600);
@@ -122,11 +122,11 @@ TEST(Gallery, ThePersonAndTheTreesStandOnOneLineAtOneScale) {
   };
   const float person = static_cast<float>(top(feet[0]));
   growth::GrowthInput input;
-  input.parameters = &birch->growth;
-  input.max_height_m = birch->shape.mature_height_m;
+  input.parameters = &maple->growth;
+  input.max_height_m = maple->shape.mature_height_m;
   input.seed = options.seed, input.key = kGalleryKey;
   const growth::Skeleton skeleton = growth::grow(input);
-  const float asked = growth::height_share_at_age(birch->growth, 9.0f) * birch->shape.mature_height_m;
+  const float asked = growth::height_share_at_age(maple->growth, 9.0f) * maple->shape.mature_height_m;
   const float height = growth::measure(skeleton, growth::season_at_height(skeleton, asked)).height_m;
   // A twig or leaf stands up beyond the wood, and pixels are 2 cm.
   EXPECT_NEAR(static_cast<float>(top(feet[1])) / person * kFigureHeight, height, 0.3f);

@@ -420,6 +420,48 @@ TEST(Grow, ABoleHasNoBranches) {
   }
 }
 
+TEST(Grow, AGrownTrunkHasLostTheBranchesBelowItsLiftedCrown) {
+  Parameters p = sample_parameters();
+  const Skeleton whole = grow(sample_input(p, 2));
+  p.crown_lift = 0.5f;
+  const Skeleton lifted = grow(sample_input(p, 2));
+  const auto branches_below = [](const Skeleton& s, float share, int season) {
+    int count = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const auto at = static_cast<std::size_t>(std::max(0, s.parent[i]));
+      const bool foot = s.order[i] == 1 && s.parent[i] >= 0 && s.order[at] == 0;
+      count += foot && s.born[i] <= season && s.shed[i] > season && s.proximal(i).y < share * 12.0f;
+    }
+    return count;
+  };
+  // Each branch falls between 0.6 and 1.2 of the lifted height.
+  EXPECT_GT(branches_below(whole, 0.25f, whole.seasons), 0);
+  EXPECT_EQ(branches_below(lifted, 0.25f, lifted.seasons), 0);
+  EXPECT_GT(branches_below(lifted, 0.8f, lifted.seasons), 0);
+  EXPECT_GT(branches_below(lifted, 0.25f, lifted.seasons / 4), 0) << "a young tree has them";
+}
+
+TEST(Grow, SaggingAxesHangTheLowerTheFartherTheyReach) {
+  Parameters p = sample_parameters();
+  const auto mean_rise = [&p](float sag, bool far) {
+    p.sag_deg_per_m = sag;
+    double rise = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const Skeleton s = grow(sample_input(p, seed));
+      for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 foot = s.proximal(i), way = s.distal[i] - foot;
+        const float reach = std::sqrt(foot.x * foot.x + foot.z * foot.z);
+        if (s.order[i] != 1 || (reach > 1.0f) != far) continue;
+        rise += way.y / std::sqrt(glm::dot(way, way)), ++count;
+      }
+    }
+    return rise / count;
+  };
+  EXPECT_LT(mean_rise(20.0f, true), mean_rise(20.0f, false) - 0.05);
+  EXPECT_LT(mean_rise(20.0f, true), mean_rise(0.0f, true) - 0.15);
+}
+
 TEST(Grow, ACancelledTreeEndsAtOnce) {
   const Parameters p = sample_parameters();
   Progress progress;
