@@ -1,9 +1,8 @@
 #include "crowns/update_space.h"
 
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <memory>
-#include <mutex>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -11,7 +10,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "crowns/propagation.h"
+#include "crowns/layer_update.h"
 #include "crowns/space_layout.h"
 #include "terrain/terrain.h"
 
@@ -19,296 +18,6 @@ namespace bosquet::crowns {
 namespace {
 
 constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
-constexpr std::int32_t kGone = -1;
-// Rings of neighbours that are divided with the edited trees at first.
-constexpr int kRings = 2;
-
-constexpr std::array<IVec2, 4> kBeside{IVec2{-1, 0}, IVec2{1, 0}, IVec2{0, -1}, IVec2{0, 1}};
-
-/// A voxel that belonged to a tree before a hero tree took it.
-struct Hidden {
-  std::int32_t slot, layer;
-  IVec2 column;
-};
-
-/// Layers of a column that came to lie above the ground, or under it.
-struct GroundEdit {
-  IVec2 column;
-  std::int32_t low, high;
-  bool opened;
-};
-
-// What is the same for all layers.
-struct Edit {
-  const CrownSpace& before;
-  const SpaceLayout& old_layout;
-  const SpaceLayout& layout;
-  const Standing& standing;
-  const terrain::Terrain& terrain;
-  const SpaceOptions& options;
-  std::vector<std::int32_t> old_claimant;  ///< of each slot, or kGone
-  std::vector<std::int32_t> claimant;      ///< the same after the edit
-  std::vector<std::int32_t> edited;        ///< slots of trees that came, went or have another front
-  std::vector<const Obstacle*> gone_obstacles, new_obstacles;
-  std::vector<Hidden> hidden;  ///< sorted by slot, layer
-  std::vector<GroundEdit> ground_edits;
-  /// Of tiles that were not held, or whose ground is another.
-  std::unordered_map<std::uint64_t, std::shared_ptr<const std::vector<std::int32_t>>> ground;
-  std::mutex ground_lock;
-
-  const Placed* old_place(std::int32_t slot) const { return place(old_layout, old_claimant, slot); }
-  const Placed* new_place(std::int32_t slot) const { return place(layout, claimant, slot); }
-
-  std::shared_ptr<const std::vector<std::int32_t>> ground_of(IVec2 tile) {
-    const std::lock_guard lock(ground_lock);
-    const auto known = ground.find(packed(tile));
-    if (known != ground.end()) return known->second;
-    if (const SpaceTile* held = before.find_tile(tile)) return held->ground;
-    auto& layers = ground[packed(tile)];
-    if (!layers) layers = ground_layers(tile, terrain, layout.domain, options);
-    return layers;
-  }
-
- private:
-  static const Placed* place(const SpaceLayout& of, const std::vector<std::int32_t>& claimants, std::int32_t slot) {
-    const std::int32_t c =
-        static_cast<std::size_t>(slot) < claimants.size() ? claimants[static_cast<std::size_t>(slot)] : kGone;
-    return c == kGone ? nullptr : &of.placed[static_cast<std::size_t>(c)];
-  }
-};
-
-// One layer of one tile before and after, without hero trees and without what hangs below bases. Owners are slots or
-// kFree.
-struct Sheet {
-  IVec2 tile{0};
-  std::vector<std::int32_t> before, now;
-  std::vector<std::uint64_t> ticks;  ///< of voxels that were divided anew
-  std::vector<std::uint8_t> open;    ///< above ground and in no obstacle, after the edit
-  std::vector<std::uint8_t> divided;
-};
-
-class LayerUpdate {
- public:
-  LayerUpdate(Edit& edit, std::int32_t layer) : edit_(edit), layer_(layer) {}
-
-  void run() {
-    joined_.assign(edit_.claimant.size(), 0);
-    begin();
-    if (set_.empty()) return;
-    for (int ring = 0; ring < kRings; ++ring) join_neighbours();
-    do divide();
-    while (widen());
-  }
-
-  std::vector<Sheet>& sheets() { return sheets_; }
-
- private:
-  // The edited trees, and those that own a voxel which an edit takes or beside one that it frees.
-  void begin() {
-    for (std::int32_t slot : edit_.edited) {
-      const Placed *was = edit_.old_place(slot), *is = edit_.new_place(slot);
-      if (was && was->takes_part(layer_)) join(slot);
-      if (!is || !is->takes_part(layer_)) continue;
-      join(slot);
-      join(before(is->root));
-    }
-    for (const Obstacle* o : edit_.new_obstacles)
-      for (const ColumnSpan& s : o->volume->spans)
-        if (spans(s)) join(before_if_held(s.column));
-    for (const Obstacle* o : edit_.gone_obstacles)
-      for (const ColumnSpan& s : o->volume->spans)
-        if (spans(s))
-          for (IVec2 step : kBeside)
-            if (const std::int32_t slot = before_if_held(s.column + step); slot >= 0)
-              join(slot), sheet_at(tile_of(s.column));  // it may go on into the voxel
-    for (const GroundEdit& g : edit_.ground_edits) {
-      if (layer_ < g.low || layer_ >= g.high) continue;
-      if (!g.opened) {
-        join(before_if_held(g.column));
-        continue;
-      }
-      for (IVec2 step : kBeside)
-        if (const std::int32_t slot = before_if_held(g.column + step); slot >= 0)
-          join(slot), sheet_at(tile_of(g.column));
-    }
-  }
-  bool spans(const ColumnSpan& s) const { return s.low <= layer_ && layer_ < s.high; }
-
-  void join(std::int32_t slot) {
-    if (slot < 0 || joined_[static_cast<std::size_t>(slot)]) return;
-    joined_[static_cast<std::size_t>(slot)] = 1;
-    set_.push_back(slot);
-  }
-  bool has_joined(std::int32_t slot) const { return slot >= 0 && joined_[static_cast<std::size_t>(slot)]; }
-
-  // Sheets, loaded when first asked for; kGone off the domain.
-  std::int32_t sheet_at(IVec2 tile) {
-    if (!sheets_.empty() && sheets_[static_cast<std::size_t>(last_)].tile == tile) return last_;
-    const auto [at, added] = index_.emplace(packed(tile), static_cast<std::int32_t>(sheets_.size()));
-    if (added) load(tile);
-    return last_ = at->second;
-  }
-
-  void load(IVec2 tile) {
-    Sheet sheet;
-    sheet.tile = tile;
-    sheet.before.assign(kColumns, kFree);
-    if (const SpaceTile* held = edit_.before.find_tile(tile); held && held->has(layer_)) {
-      const std::size_t offset = held->offset(layer_);
-      std::copy_n(held->owner.begin() + static_cast<std::ptrdiff_t>(offset), kColumns, sheet.before.begin());
-      const auto under = std::partition_point(held->under_heroes.begin(), held->under_heroes.end(),
-                                              [&](const SpaceTile::Under& u) { return u.place < offset; });
-      for (auto u = under; u != held->under_heroes.end() && u->place < offset + kColumns; ++u)
-        sheet.before[u->place - offset] = u->owner;
-      const bool hangs = layer_ < held->highest_base;
-      for (std::int32_t& owner : sheet.before)
-        if (owner < 0 || (hangs && edit_.old_place(owner)->base > layer_)) owner = kFree;
-    }
-    sheet.now = sheet.before;
-    sheet.divided.assign(kColumns, 0);
-    sheet.open.assign(kColumns, 0);
-    const auto ground = edit_.ground_of(tile);
-    for (std::size_t c = 0; c < kColumns; ++c) sheet.open[c] = (*ground)[c] <= layer_;
-    for (const Obstacle& o : edit_.standing.obstacles)
-      for_each_span(*o.volume, tile, [&](const ColumnSpan& s) {
-        if (spans(s)) sheet.open[inside(s.column)] = 0;
-      });
-    sheets_.push_back(std::move(sheet));
-  }
-
-  std::int32_t before(IVec2 column) {
-    return sheets_[static_cast<std::size_t>(sheet_at(tile_of(column)))].before[inside(column)];
-  }
-  // Without loading tiles where nobody was.
-  std::int32_t before_if_held(IVec2 column) {
-    const SpaceTile* held = edit_.before.find_tile(tile_of(column));
-    return held && held->has(layer_) ? before(column) : kFree;
-  }
-
-  // Calls visit(column) for every voxel that a tree had in this layer, and some more around them.
-  template <class Visit>
-  void for_each_column(std::int32_t slot, const Visit& visit) {
-    const std::int32_t claimant = static_cast<std::size_t>(slot) < edit_.old_claimant.size()
-                                      ? edit_.old_claimant[static_cast<std::size_t>(slot)]
-                                      : kGone;
-    if (claimant == kGone) return;
-    const auto shares = edit_.before.shares(static_cast<std::size_t>(claimant));
-    const auto at =
-        std::partition_point(shares.begin(), shares.end(), [&](const LayerShare& s) { return s.layer < layer_; });
-    if (at != shares.end() && at->layer == layer_)
-      for (std::int32_t j = at->low.y; j <= at->high.y; ++j)
-        for (std::int32_t i = at->low.x; i <= at->high.x; ++i) visit(IVec2{i, j});
-    const auto key = std::tuple(slot, layer_);
-    for (auto h = std::partition_point(edit_.hidden.begin(), edit_.hidden.end(),
-                                       [&](const Hidden& x) { return std::tuple(x.slot, x.layer) < key; });
-         h != edit_.hidden.end() && std::tuple(h->slot, h->layer) == key; ++h)
-      visit(h->column);
-  }
-
-  void join_neighbours() {
-    const std::size_t size = set_.size();
-    for (; ringed_ < size; ++ringed_) {
-      const std::int32_t slot = set_[ringed_];
-      for_each_column(slot, [&](IVec2 c) {
-        if (before(c) != slot) return;
-        for (IVec2 step : kBeside) join(before_if_held(c + step));
-      });
-    }
-  }
-
-  void divide() {
-    // All that the joined trees had is loaded, so that it is theirs to divide again.
-    std::vector<Front> fronts;
-    for (std::int32_t slot : set_) {
-      for_each_column(slot, [&](IVec2 c) { sheet_at(tile_of(c)); });
-      const Placed* p = edit_.new_place(slot);
-      if (!p || !p->takes_part(layer_)) continue;
-      fronts.push_back(
-          front_of(*p, edit_.layout.rank[static_cast<std::size_t>(edit_.claimant[static_cast<std::size_t>(slot)])]));
-      fronts.back().owner = slot;
-      fronts.back().root = static_cast<std::uint32_t>(sheet_at(tile_of(p->root)) * kTileColumns) +
-                           static_cast<std::uint32_t>(inside(p->root));
-    }
-    LayerCells cells;
-    const auto block = [&](IVec2 tile) {
-      const auto at = index_.find(packed(tile));
-      return at == index_.end() ? LayerCells::kNoBlock : at->second;
-    };
-    for (Sheet& s : sheets_) {
-      const IVec2 t = s.tile;
-      cells.blocks.push_back(
-          {t * kTileEdge, block(t + kBeside[0]), block(t + kBeside[1]), block(t + kBeside[2]), block(t + kBeside[3])});
-      for (std::size_t c = 0; c < kColumns; ++c) {
-        const bool theirs = s.before[c] == kFree || has_joined(s.before[c]);
-        s.divided[c] = theirs;
-        cells.open.push_back(theirs && s.open[c]);
-      }
-    }
-    const LayerResult result = propagate(fronts, cells);
-    for (std::size_t n = 0; n < sheets_.size(); ++n) {
-      Sheet& s = sheets_[n];
-      for (std::size_t c = 0; c < kColumns; ++c) {
-        const std::int32_t f = result.front[n * kColumns + c];
-        if (s.divided[c]) s.now[c] = f == LayerResult::kUnclaimed ? kFree : fronts[static_cast<std::size_t>(f)].owner;
-      }
-      if (edit_.options.keep_ticks)
-        s.ticks.assign(result.ticks.begin() + static_cast<std::ptrdiff_t>(n * kColumns),
-                       result.ticks.begin() + static_cast<std::ptrdiff_t>((n + 1) * kColumns));
-    }
-  }
-
-  // Joins the held trees that touch what changed, and loads tiles that a changed tree can go on into. False when there
-  // are none.
-  bool widen() {
-    std::vector<std::uint8_t> changed(joined_.size(), 0);
-    for (std::int32_t slot : edit_.edited) changed[static_cast<std::size_t>(slot)] = 1;
-    for (const Sheet& s : sheets_)
-      for (std::size_t c = 0; c < kColumns; ++c) {
-        if (s.before[c] == s.now[c]) continue;
-        if (s.before[c] >= 0) changed[static_cast<std::size_t>(s.before[c])] = 1;
-        if (s.now[c] >= 0) changed[static_cast<std::size_t>(s.now[c])] = 1;
-      }
-    const std::size_t joined = set_.size(), sheets = sheets_.size();
-    bool wider = false;
-    for (std::size_t n = 0; n < sheets; ++n)
-      for (std::int32_t j = 0; j < kTileEdge; ++j)
-        for (std::int32_t i = 0; i < kTileEdge; ++i) {
-          const auto c = static_cast<std::size_t>(j * kTileEdge + i);
-          const std::int32_t was = sheets_[n].before[c], is = sheets_[n].now[c];
-          const bool grows = is >= 0 && changed[static_cast<std::size_t>(is)];
-          if (!grows && !(was >= 0 && changed[static_cast<std::size_t>(was)])) continue;
-          const bool inner = i > 0 && j > 0 && i < kTileEdge - 1 && j < kTileEdge - 1;
-          if (inner) {
-            for (std::int32_t step : {-1, 1, -kTileEdge, kTileEdge})
-              join(sheets_[n].before[static_cast<std::size_t>(static_cast<std::int32_t>(c) + step)]);
-            continue;
-          }
-          for (IVec2 step : kBeside) {
-            const IVec2 column = sheets_[n].tile * kTileEdge + IVec2{i, j} + step;
-            if (edit_.before.find_tile(tile_of(column))) join(before_if_held(column));
-            if (!grows || !reaches(*edit_.new_place(is), column)) continue;
-            const auto at = static_cast<std::size_t>(sheet_at(tile_of(column)));
-            if (at < sheets) continue;  // took part in the division
-            const Sheet& beside = sheets_[at];
-            wider = wider || (beside.open[inside(column)] && beside.before[inside(column)] == kFree);
-          }
-        }
-    return wider || set_.size() > joined;
-  }
-  bool reaches(const Placed& p, IVec2 column) const {
-    const double x = column.x + 0.5 - p.east, y = column.y + 0.5 - p.north;
-    return edit_.layout.domain.contains(column) && p.reach >= 0 && x * x + y * y <= p.reach * p.reach;
-  }
-
-  Edit& edit_;
-  std::int32_t layer_;
-  std::vector<std::uint8_t> joined_;
-  std::vector<std::int32_t> set_;
-  std::size_t ringed_ = 0;
-  std::vector<Sheet> sheets_;
-  std::unordered_map<std::uint64_t, std::int32_t> index_;
-  std::int32_t last_ = 0;
-};
 
 }  // namespace
 
@@ -331,21 +40,21 @@ class SpaceUpdater {
     if (layout->domain != previous_.layout_->domain) return whole();
     layout_ = std::make_shared<const SpaceLayout>(std::move(*layout));
 
-    Edit edit{previous_,
-              *previous_.layout_,
-              *layout_,
-              standing_,
-              terrain_,
-              options_,
-              previous_.claimant_of_,
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {}};
+    SpaceEdit edit{previous_,
+                   *previous_.layout_,
+                   *layout_,
+                   standing_,
+                   terrain_,
+                   options_,
+                   previous_.claimant_of_,
+                   {},
+                   {},
+                   {},
+                   {},
+                   {},
+                   {},
+                   {},
+                   {}};
     if (!match(edit)) return whole();
     find_obstacle_edits(edit);
     find_ground_edits(edit);
@@ -370,7 +79,7 @@ class SpaceUpdater {
   }
 
   // Slots of the trees after the edit, and which of them have other fronts. False when ids are not unique.
-  bool match(Edit& edit) {
+  bool match(SpaceEdit& edit) {
     const auto old = previous_.claimants();
     const auto n = trees_.size();
     std::vector<std::int32_t> was(n, kGone);
@@ -432,7 +141,7 @@ class SpaceUpdater {
     return true;
   }
 
-  void find_obstacle_edits(Edit& edit) {
+  void find_obstacle_edits(SpaceEdit& edit) {
     const auto missing_in = [](const Obstacle& o, const Standing& in) {
       return std::none_of(in.obstacles.begin(), in.obstacles.end(),
                           [&](const Obstacle& other) { return other.id == o.id && other.volume == o.volume; });
@@ -450,7 +159,7 @@ class SpaceUpdater {
   }
 
   // Columns that begin at another layer, in tiles that are held and in those beside them, into which a tree may go on.
-  void find_ground_edits(Edit& edit) {
+  void find_ground_edits(SpaceEdit& edit) {
     if (!reshaped_.before) return;
     update_.reshaped = reshaped_.where;
     std::set<std::pair<std::int32_t, std::int32_t>> tiles;
@@ -486,7 +195,7 @@ class SpaceUpdater {
     }
   }
 
-  void find_hidden(Edit& edit) {
+  void find_hidden(SpaceEdit& edit) {
     for (const auto& tile : previous_.tiles_)
       for (const SpaceTile::Under& u : tile->under_heroes) {
         if (u.owner < 0) continue;
@@ -494,13 +203,13 @@ class SpaceUpdater {
         edit.hidden.push_back({u.owner, tile->first_layer + static_cast<std::int32_t>(u.place / kColumns),
                                tile->tile * kTileEdge + IVec2{c % kTileEdge, c / kTileEdge}});
       }
-    std::sort(edit.hidden.begin(), edit.hidden.end(), [](const Hidden& a, const Hidden& b) {
+    std::sort(edit.hidden.begin(), edit.hidden.end(), [](const HiddenVoxel& a, const HiddenVoxel& b) {
       return std::tie(a.slot, a.layer, a.column.y, a.column.x) < std::tie(b.slot, b.layer, b.column.y, b.column.x);
     });
   }
 
   // Layers in which something that was edited takes part.
-  void divide(Edit& edit) {
+  void divide(SpaceEdit& edit) {
     std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::lowest();
     const auto note = [&](const Placed* p) {
       if (p) low = std::min(low, p->base), high = std::max(high, p->top);
@@ -518,14 +227,15 @@ class SpaceUpdater {
       for (const GroundEdit& g : edit.ground_edits)
         low = std::min(low, std::max(g.low, least)), high = std::max(high, std::min(g.high, most));
     }
-    for (std::int32_t k = low; k < high; ++k) layers_.push_back(std::make_unique<LayerUpdate>(edit, k));
-    parallel_for(layers_.size(), [&](std::size_t n) { layers_[n]->run(); });
+    layers_.resize(low < high ? static_cast<std::size_t>(high - low) : 0);
+    parallel_for(layers_.size(),
+                 [&](std::size_t n) { layers_[n] = update_layer(edit, low + static_cast<std::int32_t>(n)); });
     first_layer_ = low;
   }
 
   struct Part {
     std::int32_t layer;
-    const Sheet* sheet;
+    const LayerSheet* sheet;
   };
   struct Touched {
     IVec2 tile{0};
@@ -541,9 +251,9 @@ class SpaceUpdater {
     return touched_[at->second];
   }
 
-  void rebuild_tiles(Edit& edit) {
+  void rebuild_tiles(SpaceEdit& edit) {
     for (std::size_t n = 0; n < layers_.size(); ++n)
-      for (const Sheet& s : layers_[n]->sheets()) {
+      for (const LayerSheet& s : layers_[n]) {
         if (s.before == s.now && (!options_.keep_ticks || s.ticks.empty())) continue;
         const std::int32_t layer = first_layer_ + static_cast<std::int32_t>(n);
         Touched& t = touch(s.tile);
@@ -593,7 +303,7 @@ class SpaceUpdater {
     parallel_for(touched_.size(), [&](std::size_t n) { rebuild(edit, touched_[n], highest); });
   }
 
-  void rebuild(Edit& edit, Touched& t, std::int32_t highest_base) const {
+  void rebuild(SpaceEdit& edit, Touched& t, std::int32_t highest_base) const {
     const SpaceTile* held = previous_.find_tile(t.tile);
     if (!held && t.low >= t.high) return;
     auto tile = std::make_shared<SpaceTile>();
@@ -677,7 +387,7 @@ class SpaceUpdater {
     }
   }
 
-  void finish(Edit& edit) {
+  void finish(SpaceEdit& edit) {
     CrownSpace& space = update_.space;
     space.options_ = options_;
     space.claimants_.assign(trees_.begin(), trees_.end());
@@ -734,7 +444,7 @@ class SpaceUpdater {
     update_.changed.erase(std::unique(update_.changed.begin(), update_.changed.end()), update_.changed.end());
   }
 
-  static std::int32_t old_of(const Edit& edit, std::int32_t slot) {
+  static std::int32_t old_of(const SpaceEdit& edit, std::int32_t slot) {
     return static_cast<std::size_t>(slot) < edit.old_claimant.size() ? edit.old_claimant[static_cast<std::size_t>(slot)]
                                                                      : kGone;
   }
@@ -803,7 +513,7 @@ class SpaceUpdater {
   const Reshaped& reshaped_;
   std::shared_ptr<const SpaceLayout> layout_;
   std::vector<std::int32_t> slot_of_, edited_;
-  std::vector<std::unique_ptr<LayerUpdate>> layers_;
+  std::vector<std::vector<LayerSheet>> layers_;  ///< from first_layer_ on
   std::int32_t first_layer_ = 0;
   std::vector<IVec2> reshaped_tiles_;  ///< held ones with columns that begin at another layer
   std::vector<Touched> touched_;

@@ -17,8 +17,10 @@
 // Errors    a row that cannot be read is left out, or read as its default, and listed; what else could be read is there
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -41,6 +43,18 @@ struct StoredDocument {
   ProjectMeta meta;
 };
 
+using BlobKey = std::pair<std::int64_t, std::int64_t>;  ///< item, part
+
+/// What a database holds, as far as its store knows.
+struct KnownRows {
+  bool any = false;
+  Document document;
+  std::map<std::string, std::vector<Hash128>> texts;        ///< of each row, by section
+  std::map<std::string, std::map<BlobKey, Hash128>> blobs;  ///< by section
+  std::map<std::string, Hash128> digests;
+  ProjectMeta meta;
+};
+
 class ProjectStore {
  public:
   /// Makes the tables in an empty database.
@@ -60,20 +74,7 @@ class ProjectStore {
   void forget() { known_ = {}; }
 
  private:
-  friend class StoreWriter;
-  friend class StoreReader;
-
-  // What the database holds.
-  struct Known {
-    bool any = false;
-    Document document;
-    std::map<std::string, std::vector<Hash128>> texts;  ///< of each row, by section
-    std::map<std::string, std::map<std::pair<std::int64_t, std::int64_t>, Hash128>>
-        blobs;  ///< by section, (item, part)
-    std::map<std::string, Hash128> digests;
-    ProjectMeta meta;
-  };
-  Known known_;
+  KnownRows known_;
 };
 
 }  // namespace bosquet::scene
