@@ -10,8 +10,8 @@ namespace bosquet::crowns {
 namespace {
 
 // Floor division: tile and column inside it of a column that may be negative.
-std::int32_t tile_of(std::int32_t column) { return column >> 6; }
-std::int32_t inside(std::int32_t column) { return column & (kTileEdge - 1); }
+std::int32_t tile_index(std::int32_t column) { return column >> 6; }
+std::int32_t within_tile(std::int32_t column) { return column & (kTileEdge - 1); }
 
 constexpr double kFarIndex = 0x1p30;  // beyond every lattice, within 32 bits
 
@@ -29,10 +29,11 @@ const SpaceTile* CrownSpace::find_tile(IVec2 tile) const {
 }
 
 std::int32_t CrownSpace::owner(IVec3 voxel) const {
-  const SpaceTile* tile = find_tile({tile_of(voxel.x), tile_of(voxel.z)});
+  const SpaceTile* tile = find_tile({tile_index(voxel.x), tile_index(voxel.z)});
   if (!tile || !tile->has(voxel.y)) return kFree;
   const std::int32_t held =
-      tile->owner[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kTileEdge + inside(voxel.x))];
+      tile->owner[tile->offset(voxel.y) +
+                  static_cast<std::size_t>(within_tile(voxel.z) * kTileEdge + within_tile(voxel.x))];
   return held < 0 ? held : claimant_of(held);
 }
 
@@ -42,9 +43,10 @@ std::int32_t CrownSpace::id(IVec3 voxel) const {
 }
 
 std::uint64_t CrownSpace::ticks(IVec3 voxel) const {
-  const SpaceTile* tile = find_tile({tile_of(voxel.x), tile_of(voxel.z)});
+  const SpaceTile* tile = find_tile({tile_index(voxel.x), tile_index(voxel.z)});
   if (!tile || !tile->has(voxel.y) || tile->ticks.empty()) return 0;
-  return tile->ticks[tile->offset(voxel.y) + static_cast<std::size_t>(inside(voxel.z) * kTileEdge + inside(voxel.x))];
+  return tile->ticks[tile->offset(voxel.y) +
+                     static_cast<std::size_t>(within_tile(voxel.z) * kTileEdge + within_tile(voxel.x))];
 }
 
 std::int32_t CrownSpace::owner_at(const Vec3& world) const {
@@ -94,8 +96,8 @@ CrownRegion region(const CrownSpace& space, std::size_t claimant) {
 
   const std::int32_t me = space.slot_of(claimant);
   for (const LayerShare& share : shares)
-    for (std::int32_t tn = tile_of(share.low.y); tn <= tile_of(share.high.y); ++tn)
-      for (std::int32_t te = tile_of(share.low.x); te <= tile_of(share.high.x); ++te) {
+    for (std::int32_t tn = tile_index(share.low.y); tn <= tile_index(share.high.y); ++tn)
+      for (std::int32_t te = tile_index(share.low.x); te <= tile_index(share.high.x); ++te) {
         const SpaceTile* tile = space.find_tile({te, tn});
         if (!tile || !tile->has(share.layer)) continue;
         const std::int32_t* owner = tile->owner.data() + tile->offset(share.layer);

@@ -9,7 +9,6 @@
 namespace bosquet::crowns {
 namespace {
 
-constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
 // Rings of neighbours that are divided with the edited trees at first.
 constexpr int kRings = 2;
 
@@ -78,23 +77,23 @@ class LayerUpdate {
   void load(IVec2 tile) {
     LayerSheet sheet;
     sheet.tile = tile;
-    sheet.before.assign(kColumns, kFree);
+    sheet.before.assign(kSheetColumns, kFree);
     if (const SpaceTile* held = edit_.before.find_tile(tile); held && held->has(layer_)) {
       const std::size_t offset = held->offset(layer_);
-      std::copy_n(held->owner.begin() + static_cast<std::ptrdiff_t>(offset), kColumns, sheet.before.begin());
+      std::copy_n(held->owner.begin() + static_cast<std::ptrdiff_t>(offset), kSheetColumns, sheet.before.begin());
       const auto under = std::partition_point(held->under_heroes.begin(), held->under_heroes.end(),
                                               [&](const SpaceTile::Under& u) { return u.place < offset; });
-      for (auto u = under; u != held->under_heroes.end() && u->place < offset + kColumns; ++u)
+      for (auto u = under; u != held->under_heroes.end() && u->place < offset + kSheetColumns; ++u)
         sheet.before[u->place - offset] = u->owner;
       const bool hangs = layer_ < held->highest_base;
       for (std::int32_t& owner : sheet.before)
         if (owner < 0 || (hangs && edit_.old_place(owner)->base > layer_)) owner = kFree;
     }
     sheet.now = sheet.before;
-    sheet.divided.assign(kColumns, 0);
-    sheet.open.assign(kColumns, 0);
+    sheet.divided.assign(kSheetColumns, 0);
+    sheet.open.assign(kSheetColumns, 0);
     const auto ground = edit_.ground_of(tile);
-    for (std::size_t c = 0; c < kColumns; ++c) sheet.open[c] = (*ground)[c] <= layer_;
+    for (std::size_t c = 0; c < kSheetColumns; ++c) sheet.open[c] = (*ground)[c] <= layer_;
     for (const Obstacle& o : edit_.standing.obstacles)
       for_each_span(*o.volume, tile, [&](const ColumnSpan& s) {
         if (spans(s)) sheet.open[inside(s.column)] = 0;
@@ -164,7 +163,7 @@ class LayerUpdate {
       const IVec2 t = s.tile;
       cells.blocks.push_back(
           {t * kTileEdge, block(t + kBeside[0]), block(t + kBeside[1]), block(t + kBeside[2]), block(t + kBeside[3])});
-      for (std::size_t c = 0; c < kColumns; ++c) {
+      for (std::size_t c = 0; c < kSheetColumns; ++c) {
         const bool theirs = s.before[c] == kFree || has_joined(s.before[c]);
         s.divided[c] = theirs;
         cells.open.push_back(theirs && s.open[c]);
@@ -173,13 +172,13 @@ class LayerUpdate {
     const LayerResult result = propagate(fronts, cells);
     for (std::size_t n = 0; n < sheets_.size(); ++n) {
       LayerSheet& s = sheets_[n];
-      for (std::size_t c = 0; c < kColumns; ++c) {
-        const std::int32_t f = result.front[n * kColumns + c];
+      for (std::size_t c = 0; c < kSheetColumns; ++c) {
+        const std::int32_t f = result.front[n * kSheetColumns + c];
         if (s.divided[c]) s.now[c] = f == LayerResult::kUnclaimed ? kFree : fronts[static_cast<std::size_t>(f)].owner;
       }
       if (edit_.options.keep_ticks)
-        s.ticks.assign(result.ticks.begin() + static_cast<std::ptrdiff_t>(n * kColumns),
-                       result.ticks.begin() + static_cast<std::ptrdiff_t>((n + 1) * kColumns));
+        s.ticks.assign(result.ticks.begin() + static_cast<std::ptrdiff_t>(n * kSheetColumns),
+                       result.ticks.begin() + static_cast<std::ptrdiff_t>((n + 1) * kSheetColumns));
     }
   }
 
@@ -189,7 +188,7 @@ class LayerUpdate {
     std::vector<std::uint8_t> changed(joined_.size(), 0);
     for (std::int32_t slot : edit_.edited) changed[static_cast<std::size_t>(slot)] = 1;
     for (const LayerSheet& s : sheets_)
-      for (std::size_t c = 0; c < kColumns; ++c) {
+      for (std::size_t c = 0; c < kSheetColumns; ++c) {
         if (s.before[c] == s.now[c]) continue;
         if (s.before[c] >= 0) changed[static_cast<std::size_t>(s.before[c])] = 1;
         if (s.now[c] >= 0) changed[static_cast<std::size_t>(s.now[c])] = 1;

@@ -19,6 +19,7 @@
 
 namespace bosquet::crowns {
 
+inline constexpr auto kSheetColumns = static_cast<std::size_t>(kTileColumns);
 inline constexpr std::int32_t kGone = -1;  ///< a slot's claimant, when it has none
 inline constexpr std::array<IVec2, 4> kBeside{IVec2{-1, 0}, IVec2{1, 0}, IVec2{0, -1}, IVec2{0, 1}};
 

@@ -17,7 +17,7 @@ namespace {
 
 // Distances are known this far from the surface, in voxels; only the first half voxel is asked for.
 constexpr float kBand = 2.0f;
-constexpr float kMargin = 0.5f - 1e-3f;
+constexpr float kVoxelMargin = 0.5f - 1e-3f;
 // A surface without thickness may run exactly between two voxels: both are taken, lest it have holes.
 constexpr float kSurfaceMargin = 0.5f + 1e-3f;
 // A surface of so many voxels is a square kilometre at 0.25 m, and so long a mesh 25 km: the unit is wrong, or a vertex.
@@ -106,7 +106,7 @@ Result<ObstacleVolume> voxelise(const TriangleMesh& mesh, VoxelSize size, const 
       for (int z = low.z(); z <= high.z(); ++z)
         for (int x = low.x(); x <= high.x(); ++x) spans.push_back({{x, z}, low.y(), high.y() + 1});
     };
-    const float margin = warning.empty() ? kMargin : kSurfaceMargin;
+    const float margin = warning.empty() ? kVoxelMargin : kSurfaceMargin;
     for (auto value = grid->tree().cbeginValueAll(); value; ++value)
       if (*value < margin) take(value.getBoundingBox());
   } catch (const std::exception& e) {

@@ -15,11 +15,6 @@
 #include "terrain/terrain.h"
 
 namespace bosquet::crowns {
-namespace {
-
-constexpr auto kColumns = static_cast<std::size_t>(kTileColumns);
-
-}  // namespace
 
 class SpaceUpdater {
  public:
@@ -199,8 +194,8 @@ class SpaceUpdater {
     for (const auto& tile : previous_.tiles_)
       for (const SpaceTile::Under& u : tile->under_heroes) {
         if (u.owner < 0) continue;
-        const auto c = static_cast<std::int32_t>(u.place % kColumns);
-        edit.hidden.push_back({u.owner, tile->first_layer + static_cast<std::int32_t>(u.place / kColumns),
+        const auto c = static_cast<std::int32_t>(u.place % kSheetColumns);
+        edit.hidden.push_back({u.owner, tile->first_layer + static_cast<std::int32_t>(u.place / kSheetColumns),
                                tile->tile * kTileEdge + IVec2{c % kTileEdge, c / kTileEdge}});
       }
     std::sort(edit.hidden.begin(), edit.hidden.end(), [](const HiddenVoxel& a, const HiddenVoxel& b) {
@@ -327,7 +322,7 @@ class SpaceUpdater {
         last = slot;
         tile->highest_base = std::max(tile->highest_base, edit.new_place(slot)->base);
       }
-    const std::size_t voxels = static_cast<std::size_t>(tile->layers) * kColumns;
+    const std::size_t voxels = static_cast<std::size_t>(tile->layers) * kSheetColumns;
     tile->owner.assign(voxels, kFree);
     if (options_.keep_ticks) tile->ticks.assign(voxels, 0);
 
@@ -343,7 +338,7 @@ class SpaceUpdater {
         const bool hangs = k < held->highest_base;
         if (!hangs && !standing) break;
         const std::size_t from = tile->offset(k);
-        for (std::size_t c = from; c < from + kColumns; ++c) {
+        for (std::size_t c = from; c < from + kSheetColumns; ++c) {
           std::int32_t& owner = tile->owner[c];
           if (owner < kFree) owner = kFree;
           if (!hangs || owner < 0 || edit.old_place(owner)->base <= k) continue;
@@ -354,7 +349,7 @@ class SpaceUpdater {
     }
     for (const Part& part : t.parts) {
       const std::size_t from = tile->offset(part.layer);
-      for (std::size_t c = 0; c < kColumns; ++c) {
+      for (std::size_t c = 0; c < kSheetColumns; ++c) {
         if (!part.sheet->divided[c]) continue;
         tile->owner[from + c] = part.sheet->now[c];
         if (options_.keep_ticks) tile->ticks[from + c] = part.sheet->ticks[c];
@@ -377,7 +372,7 @@ class SpaceUpdater {
     for (std::int32_t k = tile.first_layer; k < tile.first_layer + tile.layers; ++k) {
       const std::int32_t* now = tile.owner.data() + tile.offset(k);
       const std::int32_t* was = held && held->has(k) ? held->owner.data() + held->offset(k) : nullptr;
-      if (was && std::equal(now, now + kColumns, was)) continue;
+      if (was && std::equal(now, now + kSheetColumns, was)) continue;
       for (std::int32_t c = 0; c < kTileColumns; ++c) {
         const std::int32_t old = was ? was[c] : kFree;
         if (now[c] == old) continue;
