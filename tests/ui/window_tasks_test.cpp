@@ -95,7 +95,7 @@ TEST_F(WindowTask, TheFirstStartShowsTheExampleParkAndFiveStepsThatCanBeGoneThro
     ASSERT_TRUE(wait([&](const Json& s) { return s["overlay_step"] == (step < 5 ? step : -1); }, 60)) << step;
   }
   key("ctrl+q");
-  ASSERT_EQ(window_->ended(30), 0) << said();
+  ASSERT_EQ(window_->ended(120), 0) << said();
   // Who has seen it once is not shown it again.
   open();
   EXPECT_EQ(state()["overlay_step"], -1);
@@ -278,7 +278,7 @@ TEST_F(WindowTask, UnsavedWorkIsAskedAboutAndNeverLost) {
   key("ctrl+a");
   type((folder_ / "kept.bosquet").string());
   key("Return");
-  EXPECT_EQ(window_->ended(30), 0) << said();
+  EXPECT_EQ(window_->ended(120), 0) << said();
   EXPECT_TRUE(std::filesystem::exists(folder_ / "kept.bosquet"));
 
   // Opened twice, the second window cannot write over the first one's work.
@@ -348,7 +348,7 @@ TEST_F(WindowTask, AStateFileThatCannotBeWrittenEndsItWithOneMessage) {
 TEST_F(WindowTask, WithoutADisplayOrOpenGlItSaysWhatWorksWithoutThem) {
   const auto tried = [&](const std::vector<std::string>& environment) {
     Started window({BOSQUET_PROGRAM, "ui"}, environment, (folder_ / "window.log").string());
-    EXPECT_EQ(window.ended(30), 2);
+    EXPECT_EQ(window.ended(120), 2);
     return said();
   };
   EXPECT_NE(tried({"DISPLAY", "WAYLAND_DISPLAY"}).find("bosquet render"), std::string::npos) << said();

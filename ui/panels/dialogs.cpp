@@ -121,7 +121,10 @@ void Panels::export_dialog(App& app, const Layout& layout) {
   }
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {90 * layout.scale, 0})) app.show_export_ = false, ImGui::CloseCurrentPopup();
+  const bool cancel = ImGui::Button("Cancel", {90 * layout.scale, 0});
+  // Escape in the list of kinds closes that list alone.
+  if (cancel || (ImGui::IsKeyPressed(kKeyEscape, false) && ImGui::IsWindowFocused()))
+    app.show_export_ = false, ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
