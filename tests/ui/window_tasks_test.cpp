@@ -254,8 +254,12 @@ TEST_F(WindowTask, WorkThatWasPaintedBeforeTheProgramIsKilledIsRecovered) {
   open();
   ASSERT_EQ(state()["question"], "recover");
   screen("recover");
-  press("Recover 0");
-  ASSERT_TRUE(wait([](const Json& s) { return s["question"] == ""; }, 60));
+  // A slow machine tells where the button was some frames ago: the dialog may have found its place since.
+  for (int turn = 0; turn < 5 && state()["question"] == "recover"; ++turn) {
+    press("Recover 0");
+    wait([](const Json& s) { return s["question"] == ""; }, 15);
+  }
+  ASSERT_EQ(state()["question"], "");
   EXPECT_GE(state()["trees"], painted);
   EXPECT_TRUE(state()["unsaved"]);
   screen("recovered");
