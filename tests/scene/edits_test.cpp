@@ -162,7 +162,7 @@ TEST(Edits, ATreesOwnParametersAreOnlyWhatDiffersFromItsSpecies) {
   const Document before = meadow();
   const growth::Parameters& species = before.species[0]->growth;
   growth::Parameters edited = species;
-  edited.shadow_strength = 0.5f * edited.shadow_strength + 0.01f;
+  edited.shadow_strength += 0.01f;
   edited.planar = true;
   edited.phyllotaxis = growth::Phyllotaxis::decussate;
   const auto own = overrides_between(species, edited);
