@@ -1,4 +1,4 @@
-// Heap: how the programs' allocator treats memory that is given back.
+// Heap: the memory that a program holds, and how its allocator treats what is given back.
 #pragma once
 
 #include <cstddef>  // __GLIBC__
@@ -16,5 +16,8 @@ inline void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 64 << 20), mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }
+
+/// Memory of the machine that the program holds now, in MB; 0 where the system does not tell.
+double resident_mb();
 
 }  // namespace bosquet

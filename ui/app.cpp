@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/heap.h"
 #include "core/letters.h"
 #include "ui/panels/panels.h"
 #include "ui/pick.h"
@@ -424,6 +425,7 @@ void App::draw_overlays() {
 void App::frame(const FrameInput& in) {
   const double passed_s = std::clamp(in.time_s - time_s_, 1e-4, 0.25);
   time_s_ = in.time_s;
+  if (time_s_ > asked_memory_s_ + 1.0) memory_mb_ = resident_mb(), asked_memory_s_ = time_s_;
   if (in.scale != scale_) {
     scale_ = in.scale;
     fonts_ = load_fonts(scale_);

@@ -107,7 +107,8 @@ class App {
   Button held_ = Button::none;  ///< pressed over the scene
   bool camera_drag_ = false;
   double moved_s_ = -10, time_s_ = 0;
-  std::size_t coarser_triangles_ = 0;  ///< before the last refinement of the scene as it is
+  double memory_mb_ = 0, asked_memory_s_ = -10;  ///< of the program, and when that was
+  std::size_t coarser_triangles_ = 0;            ///< before the last refinement of the scene as it is
   std::uint64_t refined_revision_ = 0;
   std::vector<int> keys_down_;
 

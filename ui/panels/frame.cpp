@@ -408,6 +408,8 @@ void Panels::status(App& app, const Layout& layout) {
     ImGui::SameLine(0, 18 * layout.scale);
     ImGui::TextDisabled("%s triangles",
                         fmt::format("{:.2f} M", static_cast<double>(app.view_->triangles()) / 1e6).c_str());
+    ImGui::SameLine(0, 18 * layout.scale);
+    ImGui::TextDisabled("%.0f MB", app.memory_mb_);
     if (app.export_.running()) {
       ImGui::SameLine(0, 18 * layout.scale);
       ImGui::ProgressBar(app.export_.share(), {150 * layout.scale, layout.bottom - 9 * layout.scale},
@@ -417,7 +419,7 @@ void Panels::status(App& app, const Layout& layout) {
     }
     const std::string hint(tool_info(s.tool_kind()).hint);
     const float width = ImGui::CalcTextSize(hint.c_str()).x;
-    ImGui::SameLine(std::max(420 * layout.scale, layout.screen.x - width - 14 * layout.scale));
+    ImGui::SameLine(std::max(500 * layout.scale, layout.screen.x - width - 14 * layout.scale));
     ImGui::TextDisabled("%s", hint.c_str());
   }
   end_panel();
