@@ -35,6 +35,12 @@ float height_m(const growth::Skeleton& skeleton) {
   return top;
 }
 
+/// A tree that grew some time ago, in this document or another one, is still there as it was.
+bool stands_as(const scene::Document& document, const scene::Tree& grown) {
+  const scene::Tree* now = document.trees->find(grown.id);
+  return now && now->at == grown.at && now->species == grown.species;
+}
+
 bool ready(const auto& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
@@ -380,7 +386,8 @@ void SceneView::update(Session& session) {
   // Materials that came in the meantime.
   std::vector<std::int32_t> waiting = std::exchange(waiting_, {});
   for (const std::int32_t id : waiting)
-    if (const auto found = grown_.find(id); found != grown_.end()) show_grown(*document, found->second);
+    if (const auto found = grown_.find(id); found != grown_.end() && stands_as(*document, found->second.tree))
+      show_grown(*document, found->second);
 
   do {
     std::vector<scene::FinishedTree> finished = session.pipeline().take_finished(4);
@@ -395,7 +402,7 @@ void SceneView::update(Session& session) {
         continue;
       }
       // One that was changed again since waits for its next growth.
-      if (now->at != tree.tree.at || now->species != tree.tree.species) continue;
+      if (!stands_as(*document, tree.tree)) continue;
       const scene::FinishedTree& kept = grown_[tree.id] = std::move(tree);
       show_grown(*document, kept);
     }
