@@ -12,7 +12,7 @@
 //           long as it takes, and growth ends when none can be claimed any more (painted.cpp)
 // Decision  detail is the resolution of the result, not a step of the model: a tree is the same at any (detail.h)
 // Holds     the skeleton is a pure function of the input: the same bits on any thread, in any order, in any build
-// Cost      about 1.5 microseconds for each internode that lives at the end (docs/performance.md); work arrays are kept from tree to tree
+// Cost      about 1.3 microseconds for each internode that lives at the end (docs/performance.md); work arrays are kept from tree to tree
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 // Decision  every living bud reports Q; several laterals at a node share v_l in proportion to their Q; v at the root is
 //           Q at the root; when nothing reports, both shares are 0
 // Decision  shedding compares vigor and size of a branch as they are here, its size in internodes
-// Cost      one backward and one forward sweep over the living internodes, no allocation
+// Decision  internodes that bear nothing to a side are left out: what passes them is not changed (tree.h)
+// Cost      one backward and one forward sweep over the other living internodes, no allocation
 #include <algorithm>
 #include <array>
 #include <cmath>
