@@ -13,14 +13,9 @@
 #include "cli/version.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "crowns/vdb.h"
 #include "exchange/file_output.h"
 #include "exchange/gltf_writer.h"
-#include "exchange/plan_drawing.h"
-#include "exchange/recipe_write.h"
-#include "exchange/schedule.h"
-#include "exchange/tree_file.h"
-#include "exchange/vector_writer.h"
+#include "exchange/scene_files.h"
 #include "scene/model_builder.h"
 #include "scene/project_file.h"
 
@@ -68,61 +63,12 @@ Result<std::uint64_t> write_png(const Made& made, const path& target) {
   return size_of(target);
 }
 
-// x.csv lists the trees, x.species.csv sums them up.
-Result<std::uint64_t> write_plan(const Made& made, const path& target) {
-  auto plan = exchange::draw_plan(made.grown, made.options.file.stem().string());
-  if (!plan) return Error{fmt::format("{}: {}", target.string(), plan.error().message)};
-  const std::string ending = exchange::lower_ending(target);
-  if (ending == ".svg") return exchange::write_plan_svg(*plan, target);
-  if (ending == ".dxf") return exchange::write_plan_dxf(*plan, target);
-  return exchange::write_plan_png(*plan, target);
-}
-
-Result<std::uint64_t> write_csv(const Made& made, const path& target) {
-  const auto records = exchange::tree_records(made.grown);
-  if (target.stem().extension() == ".species") return exchange::write_summary(target, exchange::summarise(records));
-  return exchange::write_schedule(target, records);
-}
-
-Result<std::uint64_t> write_map(const Made& made, const path& target) {
-  const scene::Document& document = made.grown.document;
-  auto written = exchange::write_trees(target, exchange::tree_records(made.grown), document.place,
-                                       DVec2(document.terrain->size_m()));
-  if (!written) return written.error();
-  made.warnings.insert(made.warnings.end(), written->warnings.begin(), written->warnings.end());
-  return written->bytes;
-}
-
-Result<std::uint64_t> write_voxels(const Made& made, const path& target) {
-  std::vector<std::pair<std::int32_t, std::string>> names;
-  for (const scene::Obstacle& o : made.grown.document.obstacles) names.emplace_back(o.id, o.name);
-  for (const scene::HeroTree& h : made.grown.document.heroes) names.emplace_back(h.id, h.name);
-  for (const scene::Tree& tree : *made.grown.document.trees)
-    names.emplace_back(tree.id, fmt::format("{}-{}", made.grown.document.species_of(tree).name, tree.id));
-  if (auto done = crowns::write_vdb(crowns::build_grid(made.grown.space), target, names); !done) return done.error();
-  return size_of(target);
-}
-
-Result<std::uint64_t> write_one_tree(const Made& made, const path& target) {
-  const scene::Document& document = made.grown.document;
-  for (std::size_t i = 0; i < made.grown.trees.size(); ++i) {
-    const scene::Tree& tree = (*document.trees)[i];
-    if (tree.id != *made.options.tree) continue;
-    const scene::Species& species = document.species_of(tree);
-    const exchange::SavedTree saved{species.name,      document.seed,    tree.key,
-                                    tree.scale_height, tree.scale_width, *made.grown.trees[i].skeleton};
-    return exchange::write_tree(saved, species.growth, target);
-  }
-  return Error{fmt::format("--tree {}: there is no such tree; ids run from 1 to {}", *made.options.tree,
-                           made.grown.trees.size())};
-}
-
 Result<std::uint64_t> write_project_file(const Made& made, const path& target) {
   return scene::write_project(made.grown.given, target, way_between(target, made.options.file));
 }
 
-Result<std::uint64_t> write_recipe_files(const Made& made, const path& target) {
-  auto written = exchange::write_recipe(made.grown.given, target);
+Result<std::uint64_t> write_file_of_scene(const Made& made, const path& target) {
+  auto written = exchange::write_scene_file(made.grown, {made.options.file.stem().string(), made.options.tree}, target);
   if (!written) return written.error();
   made.warnings.insert(made.warnings.end(), written->warnings.begin(), written->warnings.end());
   return written->bytes;
@@ -131,29 +77,21 @@ Result<std::uint64_t> write_recipe_files(const Made& made, const path& target) {
 struct Format {
   std::string_view ending;
   Writer write;
-  bool model;  ///< needs meshes
 };
-constexpr Format kFormats[] = {{".glb", write_model, true},
-                               {".gltf", write_model, true},
-                               {".plan.png", write_plan, false},
-                               {".svg", write_plan, false},
-                               {".dxf", write_plan, false},
-                               {".png", write_png, true},
-                               {".csv", write_csv, false},
-                               {".gpkg", write_map, false},
-                               {".geojson", write_map, false},
-                               {".shp", write_map, false},
-                               {".vdb", write_voxels, false},
-                               {".json", write_one_tree, false},
-                               {".bosquet", write_project_file, false},
-                               {".toml", write_recipe_files, false}};
+// Made of meshes.
+constexpr Format kMeshFormats[] = {{".glb", write_model}, {".gltf", write_model}, {".png", write_png}};
 
-const Format* format_of(const path& target) {
-  std::string ending = exchange::lower_ending(target);
-  if (ending == ".png" && exchange::lower_ending(target.stem()) == ".plan") ending = ".plan.png";  // a sheet
-  const auto found =
-      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.ending == ending; });
-  return found == std::end(kFormats) ? nullptr : found;
+Writer writer_of(const path& target) {
+  if (exchange::writes_scene_file(target)) return write_file_of_scene;
+  const std::string ending = exchange::lower_ending(target);
+  for (const Format& format : kMeshFormats)
+    if (format.ending == ending) return format.write;
+  return ending == ".bosquet" ? write_project_file : nullptr;
+}
+
+bool is_made_of_meshes(const path& target) {
+  const Writer writer = writer_of(target);
+  return writer == write_model || writer == write_png;
 }
 
 Result<void> check_folder(const path& target) {
@@ -177,7 +115,7 @@ Result<void> check_kind(const path& target, bool picture_only) {
   const char* known = picture_only ? ".png" : kKnownOutputs;
   if (std::filesystem::is_directory(target, ec))
     return Error{fmt::format("{}: is a folder; name a file in it, its ending one of: {}", target.string(), known)};
-  if (picture_only ? exchange::lower_ending(target) == ".png" : format_of(target) != nullptr) return {};
+  if (picture_only ? exchange::lower_ending(target) == ".png" : writer_of(target) != nullptr) return {};
   if (target.extension().empty())
     return Error{fmt::format("{}: has no ending, which tells what to write; known: {}", target.string(), known)};
   return Error{
@@ -187,11 +125,18 @@ Result<void> check_kind(const path& target, bool picture_only) {
 // What can be known to fail is refused before anything grows.
 Result<void> check_targets(const Options& options) {
   std::set<path> seen;
-  const auto is_tree = [](const path& target) { return target.extension() == ".json"; };
+  const auto is_tree = [](const path& target) { return exchange::lower_ending(target) == ".json"; };
   for (const path& target : options.outputs) {
-    if (auto fine = check_kind(target, options.command == Command::render); !fine) return fine;
-    if (is_tree(target) && (!options.tree || target.stem().extension() != ".tree"))
+    const bool render = options.command == Command::render;
+    const std::string ending = exchange::telling_ending(target);
+    if (is_tree(target) && !render && (!options.tree || ending != ".tree.json"))
       return Error{fmt::format("{}: a tree is saved with --tree ID as NAME.tree.json", target.string())};
+    if (auto fine = check_kind(target, render); !fine) return fine;
+    if (render && ending == ".plan.png" && options.view != ViewKind::trees)
+      return Error{
+          fmt::format("{}: is a plan sheet, which knows no --view; a picture of that view takes another name, "
+                      "such as {}.png",
+                      target.string(), target.stem().stem().string())};
     if (auto fine = check_folder(target); !fine) return fine;
     // What is read is refused as such when its names are known.
     if (std::error_code ec; !std::filesystem::equivalent(target, options.file, ec))
@@ -209,7 +154,7 @@ bool some_output(const Options& options, const auto& fits) {
 }
 
 bool grows_meshes(const Options& options) {
-  return some_output(options, [](const path& p) { return format_of(p)->model; });
+  return some_output(options, [](const path& p) { return is_made_of_meshes(p); });
 }
 
 Result<void> make(const Options& options, Report& report, Progress& progress) {
@@ -225,14 +170,14 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     built.model = std::move(*view);
   } else if (grows_meshes(options)) {
     // Meshes take most of the memory: what no output asks for any more makes room.
-    if (!some_output(options, [](const path& p) { return format_of(p)->write == write_voxels; }))
+    if (!some_output(options, [](const path& p) { return exchange::telling_ending(p) == ".vdb"; }))
       grown->space = {}, grown->light = {};
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
     const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
     model.paintings = &paintings;
     model.levels = options.lod != exchange::LodFiles::none;
-    if (!some_output(options, [](const path& p) { return !format_of(p)->model; }))
+    if (!some_output(options, [](const path& p) { return !is_made_of_meshes(p); }))
       model.meshed = [&](std::size_t tree) { grown->trees[tree].skeleton.reset(); };
     auto meshes = scene::build_model(*grown, model, &progress);
     if (!meshes) return meshes.error();
@@ -247,7 +192,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
   const Made made{*grown, built, options, progress, report.required_extensions, report.warnings};
   for (const path& target : options.outputs) {
     if (progress.cancelled()) return cannot_finish(fmt::format("cancelled; {} was not written", target.string()));
-    auto bytes = format_of(target)->write(made, target);
+    auto bytes = writer_of(target)(made, target);
     if (!bytes) return bytes.error();
     report.bytes.emplace_back(target.string(), *bytes);
   }

@@ -9,6 +9,7 @@
 
 #include "core/heap.h"
 #include "core/letters.h"
+#include "ui/import_files.h"
 #include "ui/panels/panels.h"
 #include "ui/pick.h"
 #include "ui/tools/standing_edits.h"
@@ -36,7 +37,8 @@ Result<std::unique_ptr<App>> App::create(const AppOptions& options) {
   app->view_.emplace(std::move(*view));
   app->thumbnails_.emplace();
   app->session_ = std::make_unique<Session>(options.session);
-  app->dark_ = options.dark;
+  app->preferences_ = options.preferences;
+  app->session_->settings.units = options.preferences.units;
   app->marking_ = options.marks;
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
@@ -49,7 +51,7 @@ Result<std::unique_ptr<App>> App::create(const AppOptions& options) {
 
   if (!options.file.empty()) {
     if (auto opened = app->session_->open(options.file); !opened) return opened.error();
-    app->recent_.push_back(options.file);
+    note_recent(app->preferences_, options.file);
   } else {
     auto park = make_example();
     if (!park) return park.error();
@@ -63,7 +65,7 @@ Result<std::unique_ptr<App>> App::create(const AppOptions& options) {
     if (!app->recoveries_.empty()) app->ask_ = Ask::recover;
   }
   if (options.first_run && app->ask_ == Ask::nothing) app->overlay_step_ = 0;
-  for (const std::string& note : app->session_->notes) app->say(note);
+  app->say_notes();
   return app;
 }
 
@@ -76,6 +78,12 @@ App::~App() {
 std::string App::title() const {
   return fmt::format("{}{}{} - Bosquet", session_->unsaved() ? "*" : "", session_->name(),
                      session_->read_only().empty() ? "" : " (read-only)");
+}
+
+Preferences App::preferences() const {
+  Preferences now = preferences_;
+  now.units = session_->settings.units;
+  return now;
 }
 
 std::string App::question() const {
@@ -118,6 +126,10 @@ void App::say(std::string message) {
   toast_until_s_ = time_s_ + kToast_s;
 }
 
+void App::say_notes() {
+  if (!session_->notes.empty()) say(first_lines(session_->notes));
+}
+
 // Does what would lose unsaved work only after it was saved or given up.
 void App::run_guarded(std::function<void()> then, Ask why) {
   if (!session_->unsaved()) {
@@ -138,11 +150,11 @@ void App::open_file(const std::filesystem::path& file) {
       [this, file] {
         if (auto opened = session_->open(file); !opened) {
           say(opened.error().message);
+          if (std::error_code ec; !std::filesystem::exists(file, ec)) std::erase(preferences_.recent, file);
           return;
         }
-        std::erase(recent_, file);
-        recent_.insert(recent_.begin(), file);
-        for (const std::string& note : session_->notes) say(note);
+        note_recent(preferences_, file);
+        say_notes();
       },
       Ask::open);
 }
@@ -429,7 +441,7 @@ void App::frame(const FrameInput& in) {
   if (in.scale != scale_) {
     scale_ = in.scale;
     fonts_ = load_fonts(scale_);
-    apply_theme(dark_, scale_);
+    apply_theme(preferences_.dark, scale_);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/result.h"
@@ -21,6 +22,7 @@
 #include "ui/export_job.h"
 #include "ui/file_chooser.h"
 #include "ui/input.h"
+#include "ui/preferences.h"
 #include "ui/scene_view.h"
 #include "ui/session.h"
 #include "ui/theme.h"
@@ -33,7 +35,7 @@ struct AppOptions {
   Session::Options session;
   std::filesystem::path file;  ///< opened at the start; empty: the example park, and recovery is offered
   bool first_run = false;      ///< shows the overlay
-  bool dark = true;
+  Preferences preferences;
   bool marks = false;  ///< notes where widgets lie
 };
 
@@ -68,6 +70,8 @@ class App {
   Vec2 view_low() const { return view_low_; }
   Vec2 view_size() const { return view_size_; }
   std::string title() const;
+  /// As they are now.
+  Preferences preferences() const;
 
   // For programs that drive the window (ui/state_file.h).
   const std::string& message() const { return toast_; }
@@ -91,6 +95,7 @@ class App {
   void run_guarded(std::function<void()> then, Ask why);
   void open_file(const std::filesystem::path& file);
   void say(std::string message);
+  void say_notes();
   float finer() const;
   void draw_overlays();
 
@@ -100,7 +105,8 @@ class App {
   Input input_;
   Fonts fonts_;
   float scale_ = 0;
-  bool dark_ = true, ended_ = false;
+  Preferences preferences_;  ///< but for the units, which are the session's
+  bool ended_ = false;
   Vec2 view_low_{0.0f}, view_size_{1.0f};
   Vec2 pointer_{0.0f};
   bool over_scene_ = false;
@@ -120,9 +126,11 @@ class App {
   bool show_history_ = false, show_export_ = false, show_shortcuts_ = false;
   int overlay_step_ = -1;  ///< of the first-run overlay; below 0: not shown
   bool playing_ = false;
-  float year_ = 30;                           ///< that the slider was set to last
-  render::DateTime when_{2026, 6, 21, 15.0};  ///< that the sun was set to last
-  bool sun_is_down_ = false;                  ///< at that time
+  float year_ = 30;                                                       ///< that the slider was set to last
+  render::DateTime when_{2026, 6, 21, 15.0};                              ///< that the sun was set to last
+  bool sun_is_down_ = false;                                              ///< at that time
+  bool sun_has_a_time_ = true;                                            ///< it stands there at some day and hour
+  std::tuple<scene::Sun, double, double> clock_follows_{{-1, -1}, 0, 0};  ///< sun, latitude, longitude of when_
 
   FileChooser chooser_;
   ExportJob export_;
@@ -130,7 +138,6 @@ class App {
   ExportProbe export_probe_;
   SchematicTree schematic_;
   std::uint64_t inspector_drag_ = 0;
-  std::vector<std::filesystem::path> recent_;
   bool marking_ = false;
   std::map<std::string, Vec4> marks_;
 };

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/letters.h"
-#include "exchange/plan_drawing.h"
-#include "exchange/recipe_write.h"
-#include "exchange/schedule.h"
+#include "exchange/image_file.h"
 #include "exchange/texture_cache.h"
-#include "exchange/vector_writer.h"
+#include "render/headless_context.h"
+#include "render/renderer.h"
+#include "scene/view_models.h"
 
 namespace bosquet::ui {
 namespace {
@@ -19,23 +18,28 @@ namespace {
 // A triangle's share of vertices and indices as files store them, measured on the examples; images of a species.
 constexpr double kBytesPerTriangle = 66, kPackedBytesPerTriangle = 14, kImageBytesPerSpecies = 1.6e6;
 
+// A photograph-like picture of leaves packs badly: what PNG takes of a pixel in the examples' pictures.
+constexpr double kPictureBytesPerPixel = 2.1;
+
 constexpr std::array<ExportKindInfo, kExportKinds> kKinds{{
     {"3D scene (glTF)", ".glb", ""},
+    {"Picture (PNG)", ".png", "What the window shows now, drawn with care."},
     {"Plan sheet, picture (PNG)", ".plan.png", "Crowns to scale, key of the species, scale bar and north arrow."},
     {"Plan sheet, drawing (SVG)", ".svg", "The plan sheet as lines that stay sharp, for layout programs."},
     {"Plan sheet, CAD (DXF)", ".dxf", "The plan sheet for CAD programs, on layers."},
     {"Planting schedule (CSV)", ".csv", "Every tree with its species, place and sizes, for spreadsheets."},
     {"Species list (CSV)", ".species.csv", "How many of each species, by status and size."},
     {"Tree map (GeoPackage)", ".gpkg", "The trees as points for GIS, in the site's reference system."},
+    {"Tree map (Shapefile)", ".shp", "The trees as points for older GIS; several files, names of columns cut short."},
     {"Tree map (GeoJSON)", ".geojson", "The trees as points for maps on the web."},
+    {"Crown regions (OpenVDB)", ".vdb", "Which tree owns which part of the air, as voxels for film tools."},
+    {"One tree (.tree.json)", ".tree.json", "The selected tree exactly as it stands, to be a hero tree elsewhere."},
     {"Recipe (TOML)", ".toml", "The whole site as a text to read and change, with its rasters beside it."},
 }};
 
-bool ends(const std::filesystem::path& path, std::string_view ending) {
-  return folded_letters(path.filename().string()).ends_with(ending);
-}
-
 }  // namespace
+
+bool is_picture(const std::filesystem::path& target) { return exchange::telling_ending(target) == ".png"; }
 
 const ExportKindInfo& export_kind(ExportKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
 
@@ -46,46 +50,19 @@ std::string bytes_words(std::uint64_t bytes) {
   return fmt::format("{:.0f} kB", std::max(1.0, number / 1e3));
 }
 
-Result<std::uint64_t> write_sheet(const scene::GrownScene& scene, const std::string& name,
-                                  const std::filesystem::path& target) {
-  const bool drawing = ends(target, ".svg"), cad = ends(target, ".dxf");
-  if (drawing || cad || ends(target, ".plan.png")) {
-    auto plan = exchange::draw_plan(scene, name);
-    if (!plan) return Error{fmt::format("{}: {}", target.string(), plan.error().message)};
-    return drawing ? exchange::write_plan_svg(*plan, target)
-           : cad   ? exchange::write_plan_dxf(*plan, target)
-                   : exchange::write_plan_png(*plan, target);
-  }
-  if (ends(target, ".toml")) {
-    auto written = exchange::write_recipe(scene.given, target);
-    if (!written) return written.error();
-    return written->bytes;
-  }
-  const std::vector<exchange::TreeRecord> records = exchange::tree_records(scene);
-  if (ends(target, ".species.csv")) return exchange::write_summary(target, exchange::summarise(records));
-  if (ends(target, ".csv")) return exchange::write_schedule(target, records);
-  if (exchange::writes_trees(target)) {
-    auto written =
-        exchange::write_trees(target, records, scene.document.place, DVec2(scene.document.terrain->size_m()));
-    if (!written) return written.error();
-    return written->bytes;
-  }
-  return Error{target.string() + ": ends in nothing that the window can write"};
-}
-
 void ExportProbe::ask(std::uint64_t of, ExportKind kind, const std::function<scene::GrownScene()>& scene,
-                      const std::string& name) {
+                      const exchange::SceneFileOptions& options) {
   if (of == asked_ || coming_.valid()) return;
   asked_ = of;
   words_.clear();
-  coming_ = std::async(std::launch::async, [kind, name, grown = scene()]() -> std::string {
+  coming_ = std::async(std::launch::async, [kind, options, grown = scene()]() -> std::string {
     std::error_code ec;
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path(ec) / fmt::format("bosquet-size-{}", ::getpid());
     std::filesystem::create_directories(folder, ec);
-    auto written = write_sheet(grown, name, folder / ("out" + std::string(export_kind(kind).ending)));
+    auto written = exchange::write_scene_file(grown, options, folder / ("out" + std::string(export_kind(kind).ending)));
     std::filesystem::remove_all(folder, ec);
-    return written ? fmt::format("About {}", bytes_words(*written)) : written.error().message;
+    return written ? fmt::format("About {}", bytes_words(written->bytes)) : written.error().message;
   });
 }
 
@@ -103,6 +80,10 @@ exchange::GltfOptions gltf_options(const ExportSettings& settings) {
     options.max_glb_bytes = 0x7fff'ffffu;
   }
   return options;
+}
+
+std::uint64_t picture_bytes(IVec2 size) {
+  return static_cast<std::uint64_t>(kPictureBytesPerPixel * static_cast<double>(size.x) * static_cast<double>(size.y));
 }
 
 ExportSize estimate(const scene::GrownScene& scene, const ExportSettings& settings) {
@@ -130,33 +111,88 @@ ExportJob::~ExportJob() {
   if (done_.valid()) done_.wait();
 }
 
-void ExportJob::start(scene::GrownScene scene, const std::string& name, const ExportSettings& settings,
-                      std::filesystem::path target) {
+namespace {
+
+Result<std::string> write_model(const scene::Model& model, std::size_t triangles, const ExportSettings& settings,
+                                const std::filesystem::path& target, Progress* progress) {
+  const exchange::TextureCache cache = exchange::TextureCache::of_user();
+  exchange::GltfOptions options = gltf_options(settings);
+  options.version = "bosquet";
+  options.textures = &cache;
+  options.progress = progress;
+  auto written = exchange::write_gltf(model, target, options);
+  if (!written) return written.error();
+  return fmt::format("Exported {}: {:.1f} MB, {} triangles", target.filename().string(),
+                     static_cast<double>(written->bytes) / 1e6, triangles);
+}
+
+Result<std::string> write_picture(const scene::Model& model, const render::View& view,
+                                  const std::filesystem::path& target, Progress* progress) {
+  progress->begin("picture", 1);
+  auto context = render::HeadlessContext::create();
+  if (!context) return context.error();
+  auto renderer = render::Renderer::create();
+  if (!renderer) return renderer.error();
+  if (auto uploaded = renderer->upload(model); !uploaded) return uploaded.error();
+  auto image = renderer->draw(view);
+  if (!image) return image.error();
+  if (auto written = exchange::write_image(target, *image); !written) return written.error();
+  std::error_code ec;
+  return fmt::format("Exported {}: {} x {} pixels, {}", target.filename().string(), view.width, view.height,
+                     bytes_words(std::filesystem::file_size(target, ec)));
+}
+
+// What the window shows in place of the trees.
+Result<scene::Model> shown_model(const ExportOrder& order) {
+  switch (order.show) {
+    case Show::shapes:
+      return scene::shapes_model(order.scene);
+    case Show::regions:
+      return scene::regions_model(order.scene, order.slice_m);
+    case Show::arrows:
+      return scene::arrows_model(order.scene);
+    default:
+      return scene::plan_model(order.scene);
+  }
+}
+
+Result<std::string> write_export(const ExportOrder& order, Progress* progress) {
+  const std::filesystem::path& target = order.target;
+  if (exchange::writes_scene_file(target)) {
+    auto written = exchange::write_scene_file(order.scene, order.options, target);
+    if (!written) return written.error();
+    std::string words = fmt::format("Exported {}: {}", target.filename().string(), bytes_words(written->bytes));
+    for (const std::string& warning : written->warnings) words += "\n" + warning;
+    return words;
+  }
+  const bool picture = is_picture(target);
+  const std::string ending = exchange::telling_ending(target);
+  if (!picture && ending != ".glb" && ending != ".gltf")
+    return Error{target.string() + ": ends in nothing that the window can write"};
+  if (picture && order.show != Show::trees) {
+    auto model = shown_model(order);
+    return model ? write_picture(*model, order.view, target, progress) : model.error();
+  }
+  scene::ModelOptions options;
+  options.max_triangles = static_cast<std::size_t>(std::max(0, order.settings.max_triangles));
+  const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
+  options.paintings = &paintings;
+  auto built = scene::build_model(order.scene, options, progress);
+  if (!built) return built.error();
+  return picture ? write_picture(built->model, order.view, target, progress)
+                 : write_model(built->model, built->triangles, order.settings, target, progress);
+}
+
+}  // namespace
+
+void ExportJob::start(ExportOrder order) {
   if (running()) return;
   progress_ = std::make_unique<Progress>();
   progress_->begin("meshes", 0);
-  done_ = std::async(std::launch::async,
-                     [scene = std::move(scene), name, settings, target = std::move(target),
-                      progress = progress_.get()]() -> std::string {
-                       if (!ends(target, ".glb") && !ends(target, ".gltf")) {
-                         auto written = write_sheet(scene, name, target);
-                         if (!written) return written.error().message;
-                         return fmt::format("Exported {}: {}", target.filename().string(), bytes_words(*written));
-                       }
-                       scene::ModelOptions model;
-                       model.max_triangles = static_cast<std::size_t>(std::max(0, settings.max_triangles));
-                       auto built = scene::build_model(scene, model, progress);
-                       if (!built) return built.error().message;
-                       const exchange::TextureCache cache = exchange::TextureCache::of_user();
-                       exchange::GltfOptions options = gltf_options(settings);
-                       options.version = "bosquet";
-                       options.textures = &cache;
-                       options.progress = progress;
-                       auto written = exchange::write_gltf(built->model, target, options);
-                       if (!written) return written.error().message;
-                       return fmt::format("Exported {}: {:.1f} MB, {} triangles", target.filename().string(),
-                                          static_cast<double>(written->bytes) / 1e6, built->triangles);
-                     });
+  done_ = std::async(std::launch::async, [order = std::move(order), progress = progress_.get()]() -> std::string {
+    auto written = write_export(order, progress);
+    return written ? *written : written.error().message;
+  });
 }
 
 float ExportJob::share() const {

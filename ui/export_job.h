@@ -2,9 +2,10 @@
 //
 // Model     the trees are those that the pipeline has grown. A scene: meshes are built within the triangle budget; presets
 //           are what other programs open: everything (plain), Blender (plain), Unreal and Unity (plain with levels of
-//           detail), web (instanced and packed). Plans, lists and maps of the trees are what the command makes of them
-// Size      a scene's follows from its triangles and images, by what the examples took; the others are so quickly made
-//           that they are written to a temporary file, measured and removed
+//           detail), web (instanced and packed). A picture is drawn from the same meshes by a renderer of its own. All
+//           else is what the command makes of it (exchange/scene_files.h)
+// Size      a scene's follows from its triangles and images and a picture's from its pixels, by what the examples took;
+//           the others are so quickly made that they are written to a temporary file, measured and removed
 // Errors    what could not be written, as one message
 #pragma once
 
@@ -21,25 +22,54 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "exchange/gltf_writer.h"
+#include "exchange/scene_files.h"
+#include "render/view.h"
 #include "scene/grown_scene.h"
 #include "scene/model_builder.h"
+#include "ui/scene_view.h"
 
 namespace bosquet::ui {
 
 enum class ExportPreset { everything, blender, engines, web };
 inline constexpr std::array<std::string_view, 4> kExportPresetNames{"Everything", "Blender", "Unreal / Unity", "Web"};
 
-enum class ExportKind { scene, plan_picture, plan_drawing, plan_cad, schedule, species, map, web_map, recipe };
+enum class ExportKind {
+  scene,
+  picture,
+  plan_picture,
+  plan_drawing,
+  plan_cad,
+  schedule,
+  species,
+  map,
+  old_map,
+  web_map,
+  regions,
+  tree,
+  recipe,
+};
 struct ExportKindInfo {
   std::string_view name, ending, meaning;
 };
 const ExportKindInfo& export_kind(ExportKind kind);
-inline constexpr int kExportKinds = 9;
+inline constexpr int kExportKinds = 13;
 
 struct ExportSettings {
   ExportKind kind = ExportKind::scene;
   ExportPreset preset = ExportPreset::everything;
   int max_triangles = 2'000'000;
+  int picture_width = 1920;  ///< pixels; its height is as the window's
+};
+
+/// What is written, and where.
+struct ExportOrder {
+  scene::GrownScene scene;
+  exchange::SceneFileOptions options;
+  ExportSettings settings;
+  render::View view;             ///< of a picture
+  Show show = Show::trees;       ///< likewise
+  std::optional<float> slice_m;  ///< likewise, of regions
+  std::filesystem::path target;
 };
 
 /// The writer's options of a preset.
@@ -51,15 +81,18 @@ struct ExportSize {
 /// What an export would come to, from the trees as grown.
 ExportSize estimate(const scene::GrownScene& scene, const ExportSettings& settings);
 
-/// Writes anything but a scene, by the file's ending; the bytes written, of all files that belong to it.
-Result<std::uint64_t> write_sheet(const scene::GrownScene& scene, const std::string& name,
-                                  const std::filesystem::path& target);
+/// Whether a file of this name is a picture of the scene.
+bool is_picture(const std::filesystem::path& target);
+
+/// About what a picture of so many pixels comes to.
+std::uint64_t picture_bytes(IVec2 size);
 
 /// How large a plan, list or map will be, found out in the background.
 class ExportProbe {
  public:
   /// Asks for what has the number `of`, unless that was asked for last.
-  void ask(std::uint64_t of, ExportKind kind, const std::function<scene::GrownScene()>& scene, const std::string& name);
+  void ask(std::uint64_t of, ExportKind kind, const std::function<scene::GrownScene()>& scene,
+           const exchange::SceneFileOptions& options);
   /// A sentence: how large it will be, or why it cannot be; empty while it is found out.
   const std::string& words();
 
@@ -76,8 +109,7 @@ class ExportJob {
  public:
   ~ExportJob();
   /// Begins to write; one at a time.
-  void start(scene::GrownScene scene, const std::string& name, const ExportSettings& settings,
-             std::filesystem::path target);
+  void start(ExportOrder order);
   bool running() const { return done_.valid(); }
   float share() const;
   const char* stage() const { return progress_ ? progress_->stage() : ""; }

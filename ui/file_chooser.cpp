@@ -24,6 +24,17 @@ std::string size_words(std::uintmax_t bytes) {
 
 }  // namespace
 
+fs::path with_ending(const fs::path& file, const std::vector<std::string>& endings) {
+  const std::string name = folded_letters(file.filename().string());
+  if (endings.empty() || std::any_of(endings.begin(), endings.end(), [&](const std::string& ending) {
+        return name.ends_with(ending) && name != ending;
+      }))
+    return file;
+  const std::string last = fs::path("x" + endings.front()).extension().string();
+  const fs::path bare = name.ends_with(last) && name != last ? file.parent_path() / file.stem() : file;
+  return bare.string() + endings.front();
+}
+
 void FileChooser::set_folder(const fs::path& folder) {
   std::error_code ec;
   const fs::path whole = fs::absolute(folder, ec).lexically_normal();
@@ -80,7 +91,7 @@ void FileChooser::choose(const fs::path& path) {
     return;
   }
   if (mode_ == Mode::save) {
-    if (!whole.has_extension() && !endings_.empty()) whole += endings_.front();
+    whole = with_ending(whole, endings_);
     if (fs::exists(whole, ec) && replace_ != whole) {
       replace_ = whole;
       return;

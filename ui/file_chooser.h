@@ -12,12 +12,15 @@
 
 namespace bosquet::ui {
 
+/// The file under a name that ends in one of `endings`: its own, or with the first in place of that one's last part.
+std::filesystem::path with_ending(const std::filesystem::path& file, const std::vector<std::string>& endings);
+
 class FileChooser {
  public:
   enum class Mode { open, save };
 
   /// Opens the dialog; `chosen` is called once with the path when one is chosen. `endings` (".toml") filter what is
-  /// listed; a name to save under without ending gets the first.
+  /// listed; a name to save under that has none of them gets the first.
   void ask(Mode mode, std::string title, std::vector<std::string> endings, std::string name,
            std::function<void(const std::filesystem::path&)> chosen);
   bool open() const { return open_; }

@@ -143,9 +143,14 @@ std::string import_words(const scene::Edited& edit, const std::filesystem::path&
     words += fmt::format(
         "\n{} now on a path, in water or under a building",
         edit.displaced.size() == 1 ? "1 tree stands" : fmt::format("{} trees stand", edit.displaced.size()));
-  const std::size_t said = std::min(kMostNotes, edit.notes.size());
-  for (std::size_t i = 0; i < said; ++i) words += "\n" + edit.notes[i];
-  if (said < edit.notes.size()) words += fmt::format("\nand {} more", edit.notes.size() - said);
+  return edit.notes.empty() ? words : words + "\n" + first_lines(edit.notes);
+}
+
+std::string first_lines(const std::vector<std::string>& notes) {
+  const std::size_t said = std::min(kMostNotes, notes.size());
+  std::string words;
+  for (std::size_t i = 0; i < said; ++i) words += (i > 0 ? "\n" : "") + notes[i];
+  if (said < notes.size()) words += fmt::format("\nand {} more", notes.size() - said);
   return words;
 }
 

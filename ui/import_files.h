@@ -31,4 +31,7 @@ Result<HeroInHand> read_hero(const scene::Document& document, const std::filesys
 /// What is said of an import: what came, how many trees it displaced, its first notes and how many more there are.
 std::string import_words(const scene::Edited& edit, const std::filesystem::path& file);
 
+/// As many of them as are said at once, a line each, and how many more there are.
+std::string first_lines(const std::vector<std::string>& notes);
+
 }  // namespace bosquet::ui

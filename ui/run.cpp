@@ -31,7 +31,7 @@ double thread_seconds() {
 }
 
 // What was asked of the person once is not asked again: a file in the state folder tells.
-std::filesystem::path first_run_mark() { return scene::recovery_folder().parent_path() / "seen-first-steps"; }
+std::filesystem::path first_run_mark() { return state_path("seen-first-steps"); }
 
 double share(std::vector<double> values, double part) {
   if (values.empty()) return 0;
@@ -60,6 +60,8 @@ Result<void> run_window(const RunOptions& options) {
   std::error_code ec;
   const bool by_hand = !script && options.screenshot.empty();
   app_options.first_run = by_hand && options.file.empty() && !std::filesystem::exists(first_run_mark(), ec);
+  const std::filesystem::path remembered = state_path("window.json");
+  app_options.preferences = read_preferences(remembered);
   auto app = App::create(app_options);
   if (!app) return app.error();
   if (app_options.first_run) std::ofstream(first_run_mark()) << "\n";
@@ -70,6 +72,7 @@ Result<void> run_window(const RunOptions& options) {
   std::vector<double> cpu, wall, cpu_growing, wall_growing;
   std::vector<int> lines;
   std::string title;
+  Preferences kept = app_options.preferences;
   int calm = 0;
   std::optional<StateFile> state;
   if (!options.state.empty()) state.emplace(options.state);
@@ -105,6 +108,9 @@ Result<void> run_window(const RunOptions& options) {
       cpu_growing.push_back(cpu.back());
       wall_growing.push_back(wall.back());
     }
+    // What a script chose is not what the person chose.
+    if (Preferences now_chosen = (*app)->preferences(); by_hand && now_chosen != kept)
+      write_preferences(kept = std::move(now_chosen), remembered);
     if (const std::string now_title = (*app)->title(); now_title != title) window->set_title(title = now_title);
     if (!player && !options.screenshot.empty()) {
       calm = (*app)->settled() && (*app)->has_thumbnails() ? calm + 1 : 0;

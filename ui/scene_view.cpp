@@ -341,7 +341,7 @@ void SceneView::follow_overhead(bool growing) {
 
 // Regions, arrows and plan are pictures of the whole, made anew when the trees are finished.
 void SceneView::follow_view_model(const Session& session) {
-  const bool flat = show == Show::regions || show == Show::arrows || show == Show::plan;
+  const bool flat = is_flat(show);
   const std::uint64_t wanted = flat ? session.revision() * 2 + (session.growth().year ? 1 : 0) : 0;
   if (wanted == view_model_for_ && shown_as_ == show && shown_slice_ == slice_m) return;
   auto& pipeline = const_cast<Session&>(session).pipeline();
@@ -437,7 +437,7 @@ void SceneView::draw(const Session& session, IVec2 size, bool moving, double tim
   view.quality = full ? render::Quality::full : render::Quality::draft;
   view.supersample = 1;
   view.samples = render::draws_by_software() ? 1 : 4;
-  if (show == Show::regions || show == Show::arrows || show == Show::plan) {
+  if (is_flat(show)) {
     view.shading = render::Shading::flat;
     view.sky = false;
   }

@@ -29,6 +29,8 @@ namespace bosquet::ui {
 
 /// What of the scene is shown.
 enum class Show { trees, shapes, regions, arrows, plan };
+/// Whether it is seen from above, in plain colours.
+inline bool is_flat(Show show) { return show == Show::regions || show == Show::arrows || show == Show::plan; }
 inline constexpr std::array<std::string_view, 5> kShowNames{"Trees", "Shapes", "Regions", "Arrows", "Plan"};
 
 class SceneView {

@@ -28,6 +28,8 @@ std::string state_text(App& app) {
   json["selection"] = s.selection();
   json["question"] = app.question();
   json["message"] = app.message();
+  json["units"] = s.settings.units == Units::feet ? "feet" : "metres";
+  json["dark"] = app.preferences().dark;
   json["overlay_step"] = app.overlay_step();
   if (document.terrain->water_level_m) json["water_level_m"] = *document.terrain->water_level_m;
   json["view"] = {app.view_low().x, app.view_low().y, app.view_size().x, app.view_size().y};

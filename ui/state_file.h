@@ -2,8 +2,8 @@
 // not see the screen.
 //
 // Format    trees, grown (drawn as they grew), settled (nothing grows, is drawn or waited for), undo, redo, steps,
-//           unsaved, title, tool, radius_m, selection, question (what is asked in the middle), message, overlay_step,
-//           water_level_m, view [x, y, width, height] of the scene; widgets {name: [x, y, width, height]};
+//           unsaved, title, tool, radius_m, selection, question (what is asked in the middle), message, units, dark,
+//           overlay_step, water_level_m, view [x, y, width, height] of the scene; widgets {name: [x, y, width, height]};
 //           places [{id, species, east, north, x, y}]: trees whose foot is seen, at most kMostPlaces; skeletons
 //           {id: 16 hex digits}, when settled. x and y in pixels of the window
 // Errors    of kind `cannot_finish` for a file that cannot be written; bytes that are no UTF-8 stand as U+FFFD

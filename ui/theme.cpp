@@ -79,7 +79,7 @@ void apply_theme(bool dark, float scale) {
   c[ImGuiCol_TextDisabled] = shade(dim);
   c[ImGuiCol_WindowBg] = shade(panel);
   c[ImGuiCol_ChildBg] = shade(panel, 0.0f);
-  c[ImGuiCol_PopupBg] = shade(panel, 0.98f);
+  c[ImGuiCol_PopupBg] = shade(panel);
   c[ImGuiCol_MenuBarBg] = shade(back);
   c[ImGuiCol_Border] = shade(hover);
   c[ImGuiCol_FrameBg] = shade(field);

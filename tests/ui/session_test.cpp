@@ -13,6 +13,7 @@
 #include "scene/grown_scene.h"
 #include "tests/scene/sample_document.h"
 #include "ui/export_job.h"
+#include "ui/file_chooser.h"
 #include "ui/import_files.h"
 #include "ui/tools/standing_edits.h"
 
@@ -223,19 +224,62 @@ TEST_F(Import, AnExportIsAsLargeAsItWasToldToBe) {
   const auto grown = scene::grow_scene(scene::sample_document("rowan", {{10, 10}, {20, 14}}, {30, 30}), {}, nullptr);
   ASSERT_TRUE(grown);
   const scene::GrownScene& scene = *grown;
-  for (const ExportKind kind :
-       {ExportKind::plan_drawing, ExportKind::schedule, ExportKind::species, ExportKind::web_map, ExportKind::recipe}) {
-    ExportProbe probe;
+  const exchange::SceneFileOptions options{"Avenue", 2};
+  for (int k = 0; k < kExportKinds; ++k) {
+    const auto kind = static_cast<ExportKind>(k);
     const std::string ending(export_kind(kind).ending);
+    const std::filesystem::path file = folder_ / ("avenue" + ending);
+    if (kind == ExportKind::scene || kind == ExportKind::picture) continue;
+    ExportProbe probe;
     probe.ask(
-        1, kind, [&] { return scene; }, "Avenue");
+        1, kind, [&] { return scene; }, options);
     while (probe.words().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    const auto written = write_sheet(scene, "Avenue", folder_ / ("avenue" + ending));
+    const auto written = exchange::write_scene_file(scene, options, file);
     ASSERT_TRUE(written) << written.error().message;
-    EXPECT_EQ(probe.words(), "About " + bytes_words(*written)) << ending;
-    EXPECT_TRUE(std::filesystem::exists(folder_ / ("avenue" + ending)));
+    EXPECT_EQ(probe.words(), "About " + bytes_words(written->bytes)) << ending;
+    EXPECT_TRUE(std::filesystem::exists(file));
+    std::filesystem::remove(file);
   }
-  EXPECT_FALSE(write_sheet(scene, "Avenue", folder_ / "avenue.docx"));
+  EXPECT_FALSE(exchange::write_scene_file(scene, options, folder_ / "avenue.docx"));
+  EXPECT_FALSE(exchange::write_scene_file(scene, {"Avenue", 3}, folder_ / "avenue.tree.json"));
+}
+
+TEST_F(Import, APictureIsWrittenOfWhatTheCameraSees) {
+  const auto grown = scene::grow_scene(scene::sample_document("rowan", {{15, 15}}, {30, 30}), {}, nullptr);
+  ASSERT_TRUE(grown);
+  const auto green = [&](const Vec3& target) {
+    ExportOrder order;
+    order.scene = *grown;
+    order.settings.max_triangles = 50'000;
+    order.view.camera = {"", to_world({15, 3}, 4), target, 40};
+    order.view.width = 160, order.view.height = 120;
+    order.target = folder_ / "picture.png";
+    ExportJob job;
+    job.start(std::move(order));
+    std::optional<std::string> said;
+    while (!(said = job.finished())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_TRUE(said->starts_with("Exported picture.png: 160 x 120 pixels")) << *said;
+    const auto image = exchange::read_image(folder_ / "picture.png");
+    EXPECT_TRUE(image);
+    std::size_t count = 0;
+    for (int y = 0; image && y < image->height; ++y)
+      for (int x = 0; x < image->width; ++x) count += image->at(x, y)[1] > image->at(x, y)[2];
+    return count;
+  };
+  EXPECT_GT(green(to_world({15, 15}, 4)), 500u);
+  EXPECT_LT(green(to_world({15, 15}, 200)), 50u);  // sky
+}
+
+TEST(FileChooser, ANameToSaveUnderEndsAsWhatIsWritten) {
+  const auto named = [](const char* file, std::vector<std::string> endings) {
+    return with_ending(file, endings).string();
+  };
+  EXPECT_EQ(named("/a/park", {".glb", ".gltf"}), "/a/park.glb");
+  EXPECT_EQ(named("/a/park.GLTF", {".glb", ".gltf"}), "/a/park.GLTF");
+  EXPECT_EQ(named("/a/park.v2", {".bosquet"}), "/a/park.v2.bosquet");
+  EXPECT_EQ(named("/a/list.csv", {".species.csv"}), "/a/list.species.csv");
+  EXPECT_EQ(named("/a/list.species.csv", {".species.csv"}), "/a/list.species.csv");
+  EXPECT_EQ(named("/a/anything.txt", {}), "/a/anything.txt");
 }
 
 TEST_F(Import, AFileThatIsNeitherIsNamed) {

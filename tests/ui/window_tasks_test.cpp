@@ -94,11 +94,19 @@ TEST_F(WindowTask, TheFirstStartShowsTheExampleParkAndFiveStepsThatCanBeGoneThro
     press("Next");
     ASSERT_TRUE(wait([&](const Json& s) { return s["overlay_step"] == (step < 5 ? step : -1); }, 60)) << step;
   }
+  press("View");
+  press("Feet and inches");
+  ASSERT_TRUE(wait([](const Json& s) { return s["units"] == "feet"; }, 60));
+  press("View");
+  press("Dark");
+  ASSERT_TRUE(wait([](const Json& s) { return s["dark"] == false; }, 60));
   key("ctrl+q");
   ASSERT_EQ(window_->ended(120), 0) << said();
-  // Who has seen it once is not shown it again.
+  // Who has seen it once is not shown it again, and what was chosen stays so.
   open();
   EXPECT_EQ(state()["overlay_step"], -1);
+  EXPECT_EQ(state()["units"], "feet");
+  EXPECT_EQ(state()["dark"], false);
 }
 
 TEST_F(WindowTask, ALoweredRiverFillsWithWater) {

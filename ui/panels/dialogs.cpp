@@ -1,131 +1,22 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
-#include <utility>
 
-#include "core/hash.h"
-#include "core/letters.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/fields.h"
-#include "ui/widgets/slider.h"
 
-// What is asked in the middle of the window, the export dialog, and the first steps.
+// What is asked in the middle of the window, and the first steps.
 namespace bosquet::ui {
-namespace {
 
-void centre_next(const Layout& layout, float width) {
+bool begin_dialog(const char* title, const Layout& layout, float width, bool* open) {
+  if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
   ImGui::SetNextWindowPos({0.5f * layout.screen.x, 0.45f * layout.screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({width * layout.scale, 0}, ImGuiCond_Always);
-}
-
-constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings;
-
-// The grown scene of the session as it stands, for files.
-scene::GrownScene grown_scene(App& app) {
-  scene::GrownScene grown;
-  grown.given = *app.session().document();
-  grown.document = scene::without_removed(grown.given);
-  // What could not be grown is in no file.
-  std::vector<scene::Tree> there;
-  for (const scene::Tree& tree : *grown.document.trees) {
-    const auto found = app.view().grown().find(tree.id);
-    if (found == app.view().grown().end() || !found->second.grown.skeleton) continue;
-    there.push_back(tree);
-    grown.trees.push_back(found->second.grown);
-  }
-  if (there.size() < grown.document.trees->size())
-    grown.document.trees = std::make_shared<const scene::Trees>(std::move(there));
-  return grown;
-}
-
-}  // namespace
-
-void App::export_to(const std::filesystem::path& file) {
-  export_.start(grown_scene(*this), session_->name(), export_settings_, file);
-}
-
-void Panels::export_dialog(App& app, const Layout& layout) {
-  Session& s = *app.session_;
-  const char* title = "Export";
-  if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-  centre_next(layout, 430);
-  if (!ImGui::BeginPopupModal(title, &app.show_export_, kDialog)) return;
-  ExportSettings& e = app.export_settings_;
-  const ExportKindInfo& kind = export_kind(e.kind);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##kind", kind.name.data())) {
-    for (int k = 0; k < kExportKinds; ++k)
-      if (const auto one = static_cast<ExportKind>(k); ImGui::Selectable(export_kind(one).name.data(), one == e.kind))
-        e.kind = one;
-    ImGui::EndCombo();
-  }
-  mark(app, "Export kind");
-  const bool scene = e.kind == ExportKind::scene;
-  if (scene) {
-    int preset = static_cast<int>(e.preset);
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::Combo("##preset", &preset, "For everything\0For Blender\0For Unreal / Unity\0For the web\0"))
-      e.preset = static_cast<ExportPreset>(preset);
-    static constexpr std::array<const char*, 4> kPresets{
-        "Opens everywhere: plain meshes and textures.", "Plain meshes, as Blender reads them.",
-        "Plain, each tree with its levels of detail as nodes.",
-        "Small: leaves instanced, everything packed. Needs a viewer that knows meshopt, such as three.js."};
-    ImGui::TextWrapped("%s", kPresets[static_cast<std::size_t>(preset)]);
-    ImGui::SetNextItemWidth(-1);
-    slider("Triangles at most", e.max_triangles, 50'000, 20'000'000, "%d", ImGuiSliderFlags_Logarithmic);
-  } else {
-    ImGui::TextWrapped("%s", kind.meaning.data());
-  }
-  const bool ready = s.pipeline().idle();
-  const std::uint64_t asked = Hasher()
-                                  .add(s.revision())
-                                  .add(s.growth().year.value_or(0.0f))
-                                  .add(static_cast<std::uint64_t>(e.kind))
-                                  .add(static_cast<std::uint64_t>(e.preset))
-                                  .add(static_cast<std::uint64_t>(e.max_triangles))
-                                  .digest();
-  if (!ready) {
-    ImGui::TextDisabled("The trees are still growing...");
-  } else if (scene) {
-    // Asked once for each answer: it looks at every tree.
-    static std::uint64_t told = 0;
-    static ExportSize size;
-    if (std::exchange(told, asked) != asked) size = estimate(grown_scene(app), e);
-    ImGui::Text("About %s triangles and %s",
-                fmt::format("{:.2f} million", static_cast<double>(size.triangles) / 1e6).c_str(),
-                bytes_words(size.bytes).c_str());
-  } else {
-    app.export_probe_.ask(
-        asked, e.kind, [&app] { return grown_scene(app); }, s.name());
-    const std::string& words = app.export_probe_.words();
-    if (words.empty())
-      ImGui::TextDisabled("About ...");
-    else
-      ImGui::TextWrapped("%s", words.c_str());
-  }
-  ImGui::BeginDisabled(!ready || app.export_.running());
-  const bool chosen = ImGui::Button("Choose file...", {140 * layout.scale, 0});
-  mark(app, "Choose file...");
-  if (chosen) {
-    app.show_export_ = false;
-    ImGui::CloseCurrentPopup();
-    const std::string ending(kind.ending);
-    app.chooser_.ask(FileChooser::Mode::save, "Export",
-                     scene ? std::vector<std::string>{".glb", ".gltf"} : std::vector<std::string>{ending},
-                     s.name() + ending, [&app, scene, ending](std::filesystem::path file) {
-                       if (!scene && !folded_letters(file.filename().string()).ends_with(ending)) file += ending;
-                       app.export_to(file);
-                     });
-  }
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  const bool cancel = ImGui::Button("Cancel", {90 * layout.scale, 0});
-  // Escape in the list of kinds closes that list alone.
-  if (cancel || (ImGui::IsKeyPressed(kKeyEscape, false) && ImGui::IsWindowFocused()))
-    app.show_export_ = false, ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  return ImGui::BeginPopupModal(title, open,
+                                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings);
 }
 
 void Panels::questions(App& app, const Layout& layout) {
@@ -139,9 +30,7 @@ void Panels::questions(App& app, const Layout& layout) {
   };
 
   if (app.ask_ == Ask::many_trees) {
-    if (!ImGui::IsPopupOpen("So many trees?")) ImGui::OpenPopup("So many trees?");
-    centre_next(layout, 380);
-    if (!ImGui::BeginPopupModal("So many trees?", nullptr, kDialog)) return;
+    if (!begin_dialog("So many trees?", layout, 380)) return;
     ImGui::TextWrapped("This would plant about %zu trees. Growing them takes long and much memory.", s.asked_trees());
     const bool plant = ImGui::Button("Plant them", {130 * layout.scale, 0});
     mark(app, "Plant them");
@@ -157,9 +46,7 @@ void Panels::questions(App& app, const Layout& layout) {
   }
 
   if (app.ask_ == Ask::recover) {
-    if (!ImGui::IsPopupOpen("Recover")) ImGui::OpenPopup("Recover");
-    centre_next(layout, 480);
-    if (!ImGui::BeginPopupModal("Recover", nullptr, kDialog)) return;
+    if (!begin_dialog("Recover", layout, 480)) return;
     ImGui::TextWrapped("Bosquet ended before this was saved:");
     std::optional<std::size_t> chosen;
     const float button = 100 * layout.scale;
@@ -197,9 +84,7 @@ void Panels::questions(App& app, const Layout& layout) {
   }
 
   // Something that would lose unsaved work.
-  if (!ImGui::IsPopupOpen("Unsaved work")) ImGui::OpenPopup("Unsaved work");
-  centre_next(layout, 420);
-  if (!ImGui::BeginPopupModal("Unsaved work", nullptr, kDialog)) return;
+  if (!begin_dialog("Unsaved work", layout, 420)) return;
   ImGui::TextWrapped("%s was changed and is not saved.", s.name().c_str());
   const auto then = app.then_;
   const bool keep = ImGui::Button("Save", {120 * layout.scale, 0});

@@ -65,6 +65,7 @@ void Panels::ask_save_as(App& app, std::function<void()> then) {
                      if (auto saved = app.session_->save_as(file); !saved)
                        app.say(saved.error().message);
                      else {
+                       note_recent(app.preferences_, app.session_->path());
                        app.say("Saved " + file.filename().string());
                        if (then) then();
                      }
@@ -105,8 +106,8 @@ void Panels::menu(App& app, Layout& layout) {
       ImGui::EndMenu();
     }
     if (ImGui::MenuItem("Open...", "Ctrl+O")) ask_open(app);
-    if (ImGui::BeginMenu("Open recent", !app.recent_.empty())) {
-      for (const std::filesystem::path& file : std::vector(app.recent_))
+    if (ImGui::BeginMenu("Open recent", !app.preferences_.recent.empty())) {
+      for (const std::filesystem::path& file : std::vector(app.preferences_.recent))
         if (ImGui::MenuItem(file.filename().string().c_str())) app.open_file(file);
       ImGui::EndMenu();
     }
@@ -182,10 +183,8 @@ void Panels::menu(App& app, Layout& layout) {
     const bool feet = s.settings.units == Units::feet;
     if (ImGui::MenuItem("Feet and inches", nullptr, feet)) s.settings.units = feet ? Units::metres : Units::feet;
     mark(app, "Feet and inches");
-    if (ImGui::MenuItem("Dark", nullptr, app.dark_)) {
-      app.dark_ = !app.dark_;
-      apply_theme(app.dark_, app.scale_);
-    }
+    if (bool& dark = app.preferences_.dark; ImGui::MenuItem("Dark", nullptr, &dark)) apply_theme(dark, app.scale_);
+    mark(app, "Dark");
     ImGui::EndMenu();
   }
   const bool help_open = ImGui::BeginMenu("Help");
@@ -267,7 +266,7 @@ void number(const char* label, float& value, float low, float high, const char* 
 void row_fields(distribution::RowRules& row, Units units) {
   length("Spacing", row.spacing_m, 0.3f, 30.0f, units, "Distance from tree to tree along the row");
   int sides = static_cast<int>(row.sides);
-  ImGui::SetNextItemWidth(90 * ImGui::GetFontSize() / 15);
+  ImGui::SetNextItemWidth(118 * ImGui::GetFontSize() / 15);
   if (ImGui::Combo("Sides", &sides, "On the line\0Left\0Right\0Both\0"))
     row.sides = static_cast<distribution::RowSides>(sides);
   ImGui::SameLine();
@@ -461,7 +460,8 @@ void Panels::toast(App& app, const Layout& layout) {
 }
 
 void Panels::shortcuts(App& app, const Layout& layout) {
-  ImGui::SetNextWindowSize({430 * layout.scale, 480 * layout.scale}, ImGuiCond_Appearing);
+  const float high = std::min(760 * layout.scale, 0.92f * layout.screen.y);
+  ImGui::SetNextWindowSize({530 * layout.scale, high}, ImGuiCond_Appearing);
   ImGui::SetNextWindowPos({0.5f * layout.screen.x, 0.5f * layout.screen.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
   if (ImGui::Begin("Shortcuts", &app.show_shortcuts_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
     const auto row = [](const std::string& keys, std::string_view what) {
@@ -472,6 +472,8 @@ void Panels::shortcuts(App& app, const Layout& layout) {
       ImGui::TextUnformatted(what.data(), what.data() + what.size());
     };
     if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthStretch, 0.42f);
+      ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch, 0.58f);
       for (int k = 0; k < kToolCount; ++k) {
         const ToolInfo& info = tool_info(static_cast<ToolKind>(k));
         row(std::string(1, static_cast<char>(info.key)), info.name);

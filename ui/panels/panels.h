@@ -55,4 +55,7 @@ struct Panels {
 bool begin_panel(const char* name, Vec2 low, Vec2 size, bool scrolls = true);
 void end_panel();
 
+/// Begins a dialog in the middle of the window, which takes all input; `open`: its cross may close it.
+bool begin_dialog(const char* title, const Layout& layout, float width, bool* open = nullptr);
+
 }  // namespace bosquet::ui

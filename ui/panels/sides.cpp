@@ -393,11 +393,13 @@ void Panels::site_page(App& app) {
   if (!ImGui::IsAnyItemActive()) app.inspector_drag_ = 0;
 
   ImGui::Separator();
-  const scene::PipelineStatus status = s.pipeline().status();
-  if (!status.warnings.empty()) {
-    ImGui::TextUnformatted("Warnings");
-    for (const std::string& warning : status.warnings) ImGui::TextWrapped("%s", warning.c_str());
-  }
+  const auto list = [](const char* heading, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    ImGui::TextDisabled("%s", heading);
+    for (const std::string& line : lines) ImGui::TextWrapped("%s", line.c_str());
+  };
+  list("Warnings", s.pipeline().status().warnings);
+  list("Noted when it was opened", s.notes);
 }
 
 void Panels::inspector(App& app, const Layout& layout) {

@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
-#include "render/sun_position.h"
 #include "scene/settings_edits.h"
 #include "ui/panels/panels.h"
+#include "ui/sun_clock.h"
 #include "ui/widgets/fields.h"
 #include "ui/widgets/slider.h"
 
@@ -16,23 +17,8 @@ namespace {
 
 constexpr float kLowestSun_deg = 1.0f;  ///< that the window lets a hand or a clock set
 
-constexpr std::array<int, 12> kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
 constexpr std::array<const char*, 12> kMonths{"January", "February", "March",     "April",   "May",      "June",
                                               "July",    "August",   "September", "October", "November", "December"};
-
-// Of a year without a leap day, 1 to 365.
-int day_of_year(const render::DateTime& when) {
-  int day = when.day;
-  for (int m = 0; m + 1 < when.month; ++m) day += kDays[static_cast<std::size_t>(m)];
-  return day;
-}
-
-void set_day_of_year(render::DateTime& when, int day) {
-  int month = 1;
-  for (; month < 12 && day > kDays[static_cast<std::size_t>(month - 1)]; ++month)
-    day -= kDays[static_cast<std::size_t>(month - 1)];
-  when.month = month, when.day = day;
-}
 
 }  // namespace
 
@@ -41,6 +27,16 @@ void Panels::sun_fields(App& app) {
   const std::shared_ptr<const scene::Document> document = s.document();
   scene::Sun sun = document->sun;
   scene::Georeference place = document->place;
+  const render::Place where{place.latitude_deg, place.longitude_deg, {}};
+  // The sun of a file that was opened, of an undo or of a hand: the clock follows it.
+  const auto follows = [&] { return std::tuple(sun, place.latitude_deg, place.longitude_deg); };
+  if (app.clock_follows_ != follows()) {
+    app.clock_follows_ = follows();
+    const auto when = time_of_sun(sun, where, app.when_);
+    app.sun_has_a_time_ = when.has_value();
+    app.sun_is_down_ = false;
+    if (when) app.when_ = *when;
+  }
   ImGui::PushItemWidth(-1);
   int day = day_of_year(app.when_);
   const std::string date = fmt::format("{} {}", app.when_.day, kMonths[static_cast<std::size_t>(app.when_.month - 1)]);
@@ -48,7 +44,7 @@ void Panels::sun_fields(App& app) {
   const std::string clock = fmt::format("{}:{:02}", minutes / 60, minutes % 60);
   auto latitude = static_cast<float>(place.latitude_deg);
   auto hour = static_cast<float>(app.when_.hour);
-  bool timed = slider("Day", day, 1, 365, date.c_str());
+  bool timed = slider("Day", day, 1, kDaysOfYear, date.c_str());
   mark(app, "Day");
   explain("The sun as it stands on this day; shadows are longest in December, north of the equator");
   if (slider("Hour", hour, 0, 24, clock.c_str())) timed = true, app.when_.hour = std::round(4.0 * hour) / 4.0;
@@ -65,9 +61,11 @@ void Panels::sun_fields(App& app) {
     const scene::Sun now = render::sun_position(app.when_, {place.latitude_deg, place.longitude_deg, {}});
     app.sun_is_down_ = now.elevation_deg < kLowestSun_deg;
     if (!app.sun_is_down_) sun = now;
-    moved = true;
+    app.sun_has_a_time_ = moved = true;
+    app.clock_follows_ = follows();
   }
   if (app.sun_is_down_) ImGui::TextDisabled("The sun is down then; it stays as it was.");
+  if (!app.sun_has_a_time_) ImGui::TextWrapped("Set by hand: on no day does the sun stand there.");
   const bool turned = slider("From", sun.azimuth_deg, 0, 360, "%.0f\xc2\xb0");
   explain("Where the light comes from, from north clockwise");
   const bool raised = slider("Height", sun.elevation_deg, kLowestSun_deg, 90, "%.0f\xc2\xb0");

@@ -49,8 +49,6 @@ bool draw(const char* label, ImGuiDataType type, void* value, const void* low, c
   const float left = std::min(x, x0), right = std::max(x, x0);
   picture->AddRectFilled({left, a.y}, {right, b.y}, ImGui::GetColorU32(ImGuiCol_Header), round,
                          from > 0.0f ? ImDrawFlags_RoundCornersNone : ImDrawFlags_RoundCornersLeft);
-  picture->AddRectFilled({x - 0.5f * kMark * s, a.y}, {x + 0.5f * kMark * s, b.y},
-                         ImGui::GetColorU32(ImGuiCol_SliderGrab));
   if (ImGui::GetCurrentContext()->NavId == id && !ImGui::GetCurrentContext()->NavDisableHighlight)
     picture->AddRect(a, b, ImGui::GetColorU32(ImGuiCol_NavHighlight), round, 0, 1.5f * s);
 
@@ -62,10 +60,23 @@ bool draw(const char* label, ImGuiDataType type, void* value, const void* low, c
   const bool named = end != label;
   const float words_x = named ? b.x - pad - words_width : 0.5f * (a.x + b.x - words_width);
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-  if (named) {
-    const ImVec4 clip(a.x, a.y, words_x - 0.5f * pad, b.y);
-    picture->AddText(nullptr, 0.0f, {a.x + pad, y}, ink, label, end, 0.0f, &clip);
+  const ImVec4 clip(a.x, a.y, words_x - 0.5f * pad, b.y);
+  // The mark leaves out what stands in its way.
+  const auto on = [&](float from_x, float to_x) { return x > from_x - 0.5f * pad && x < to_x + 0.5f * pad; };
+  const float label_width = named ? ImGui::CalcTextSize(label, end).x : 0.0f;
+  const bool crosses =
+      on(words_x, words_x + words_width) || (named && on(a.x + pad, std::min(a.x + pad + label_width, clip.z)));
+  const auto stroke = [&](float top, float bottom) {
+    picture->AddRectFilled({x - 0.5f * kMark * s, top}, {x + 0.5f * kMark * s, bottom},
+                           ImGui::GetColorU32(ImGuiCol_SliderGrab));
+  };
+  if (crosses) {
+    stroke(a.y, y);
+    stroke(b.y - (y - a.y), b.y);
+  } else {
+    stroke(a.y, b.y);
   }
+  if (named) picture->AddText(nullptr, 0.0f, {a.x + pad, y}, ink, label, end, 0.0f, &clip);
   picture->AddText({words_x, y}, ink, words);
   return changed;
 }
