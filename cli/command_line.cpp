@@ -132,6 +132,9 @@ void add_gltf(CLI::App* app, Options& o) {
   app->add_option("--instancing", o.instancing, "on: leaves as instances (EXT_mesh_gpu_instancing, required)")
       ->transform(one_of(kOnOff))
       ->option_text("on|off");
+  app->add_option("--wind", o.wind, "on: how far each vertex gives way to the wind, for engines' shaders (_WIND)")
+      ->transform(one_of(kOnOff))
+      ->option_text("on|off");
   app->add_option("--compress", o.compression, "none, quantize (opens nearly everywhere) or meshopt")
       ->transform(one_of(by_name<exchange::Compression>(exchange::kCompressionNames)))
       ->option_text("KIND");

@@ -39,6 +39,7 @@ Json gltf_json(const exchange::GltfInfo& info) {
   json["triangles"] = info.triangles;
   json["vertices"] = info.vertices;
   json["meshes"] = info.meshes;
+  json["wind_meshes"] = info.wind_meshes;
   json["materials"] = info.materials;
   json["images"] = info.images;
   json["cameras"] = info.cameras;
@@ -56,6 +57,7 @@ void print_gltf(const exchange::GltfInfo& info, const std::string& file) {
              static_cast<double>(info.file_bytes) / 1e6);
   fmt::print("{} triangles, {} vertices, {} meshes, {} materials, {} images, {} cameras\n", info.triangles,
              info.vertices, info.meshes, info.materials, info.images, info.cameras);
+  if (info.wind_meshes > 0) fmt::print("wind weights (_WIND) on {} of the meshes\n", info.wind_meshes);
   if (auto east = number(info.extras, "site_east_m"), north = number(info.extras, "site_north_m"); east && north)
     fmt::print("site {:g} x {:g} m\n", *east, *north);
 

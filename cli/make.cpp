@@ -144,6 +144,7 @@ Result<void> check_targets(const Options& options) {
     if (!seen.insert(std::filesystem::absolute(target).lexically_normal()).second)
       return Error{fmt::format("{}: is asked for twice", target.string())};
   }
+  if (options.wind && options.instancing) return Error{std::string(exchange::kNoWindOfInstances)};
   if (options.tree && std::none_of(options.outputs.begin(), options.outputs.end(), is_tree))
     return Error{fmt::format("--tree {}: needs an output that it goes into, -o NAME.tree.json", *options.tree)};
   return options.report.empty() ? Result<void>() : check_folder(options.report);
@@ -176,6 +177,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
                               options.max_triangles.value_or(grown->document.max_triangles)};
     const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
     model.paintings = &paintings;
+    model.wind = options.wind;
     model.levels = options.lod != exchange::LodFiles::none;
     if (!some_output(options, [](const path& p) { return !is_made_of_meshes(p); }))
       model.meshed = [&](std::size_t tree) { grown->trees[tree].skeleton.reset(); };

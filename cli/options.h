@@ -49,7 +49,7 @@ struct Options {
   geometry::Season season = geometry::Season::summer;
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::optional<std::size_t> max_triangles;
-  bool instancing = false;
+  bool instancing = false, wind = false;
   exchange::Compression compression = exchange::Compression::none;
   exchange::LodFiles lod = exchange::LodFiles::none;
   std::optional<std::int32_t> tree;  ///< id of the one that a .tree.json gets
@@ -70,7 +70,7 @@ struct Options {
 
   // Window.
   std::filesystem::path script, screenshot, window_state;
-  float window_scale = 0;  ///< 0: the screen's
+  float window_scale = 0;          ///< 0: the screen's
   bool window_size_given = false;  ///< else the window chooses its own
 
   // Calibration and gallery.

@@ -2,7 +2,8 @@
 //
 // Arrays hold one entry per vertex or are empty (indices: three per triangle, counter-clockwise seen from outside).
 // Positions in metres; normals of unit length; uv (0,0) is the upper left corner of the image, as glTF; colours
-// multiply the material's base colour and are linear, alpha unused (255).
+// multiply the material's base colour and are linear, alpha unused (255); wind weights as geometry/wind.h, made only
+// for files that ask for them.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@ struct TriangleMesh {
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<Rgba8> colours;
+  std::vector<Rgba8> wind;
   std::vector<std::uint32_t> indices;
 
   std::size_t triangles() const { return indices.size() / 3; }

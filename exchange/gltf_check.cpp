@@ -366,7 +366,7 @@ class Judge {
         if (!a) continue;
         if (!vertices) vertices = a->count;
         if (a->count != *vertices) fault("{}: {} has {} elements, others {}", where, name, a->count, *vertices);
-        if (checked_.insert({number.get<std::size_t>(), name == "POSITION"}).second)
+        if (checked_.insert({number.get<std::size_t>(), name == "POSITION" ? 1 : name == "_WIND" ? 2 : 0}).second)
           check_attribute(name, number.get<std::size_t>());
       }
     if (!vertices) return fault("{}: it has no attributes", where);
@@ -387,6 +387,7 @@ class Judge {
     const Accessor& a = accessors_[number];
     if (!a.known) return;
     if (const auto k = not_finite(a)) return fault("accessor {} ({}): element {} is not finite", number, name, *k);
+    if (name == "_WIND") return check_wind(a, number);
     if (name != "POSITION") return;
     if (a.width != 3) return fault("accessor {}: positions have three numbers", number);
     const Json &low = member(list("accessors")[number], "min"), &high = member(list("accessors")[number], "max");
@@ -403,6 +404,17 @@ class Judge {
         if (const double v = value(stored, k, c); !(v >= l - slack && v <= h + slack))
           return fault("accessor {}: position {} has {} outside of {} to {}", number, k, v, l, h);
     }
+  }
+
+  // Ways, flutter and phase are shares of one.
+  void check_wind(const Accessor& a, std::size_t number) {
+    const bool whole = a.component == kByte || a.component == kShort;
+    if (a.width != 4 || !(a.component == kFloat || (whole && a.normalized)))
+      return fault("accessor {} (_WIND): four floats, normalized bytes or normalized shorts", number);
+    for (std::uint64_t k = 0; k < a.count; ++k)
+      for (std::uint64_t c = 0; c < 4; ++c)
+        if (const double v = value(a, k, c); !(v >= 0.0 && v <= 1.0))
+          return fault("accessor {} (_WIND): {} of element {} does not lie in 0 to 1", number, v, k);
   }
 
   // --- nodes ---
@@ -532,7 +544,7 @@ class Judge {
   GltfCheck out_;
   std::vector<std::string> used_, required_;
   std::set<std::string> met_;
-  std::set<std::pair<std::size_t, bool>> checked_;   ///< accessors, and as what
+  std::set<std::pair<std::size_t, int>> checked_;    ///< accessors, and as what
   std::map<std::size_t, std::uint64_t> most_index_;  ///< of index accessors
   std::uint64_t data_bytes_ = 0, unpacked_ = 0;
   std::vector<Buffer> buffers_;

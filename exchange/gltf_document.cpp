@@ -231,6 +231,7 @@ class Document {
         type(kShort, "VEC2", true);
         break;
       case Stream::colour:
+      case Stream::wind:
       case Stream::instance_colour:
         type(kByte, "VEC4", true);
         break;
@@ -374,6 +375,7 @@ class Document {
       add_stream("TEXCOORD_0", Stream::uv_short);
     }
     add_stream("COLOR_0", Stream::colour);
+    add_stream("_WIND", Stream::wind);
     const Stream indices = facts.has(Stream::index_short) ? Stream::index_short : Stream::index_int;
     return {{"attributes", std::move(attributes)},
             {"indices", accessor_of_[m][static_cast<std::size_t>(indices)]},

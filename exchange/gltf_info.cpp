@@ -1,5 +1,6 @@
 #include "exchange/gltf_info.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -77,6 +78,17 @@ std::uint64_t stored_vertices(const Json& root) {
   return sum;
 }
 
+// Meshes some part of which says how it gives way to the wind.
+std::size_t meshes_with_wind(const Json& root) {
+  const auto windy = [](const Json& primitive) { return !member(member(primitive, "attributes"), "_WIND").is_null(); };
+  std::size_t n = 0;
+  for (const Json& mesh : array(member(root, "meshes"))) {
+    const Json& primitives = array(member(mesh, "primitives"));
+    n += std::any_of(primitives.begin(), primitives.end(), windy);
+  }
+  return n;
+}
+
 }  // namespace
 
 Result<GltfInfo> read_gltf_info(const std::filesystem::path& path) {
@@ -95,6 +107,7 @@ Result<GltfInfo> read_gltf_info(const std::filesystem::path& path) {
   info.cameras = length(member(root, "cameras"));
   info.lights = length(member(member(member(root, "extensions"), "KHR_lights_punctual"), "lights"));
   info.vertices = stored_vertices(root);
+  info.wind_meshes = meshes_with_wind(root);
   const Json& scene = member(root, "scene");
   info.extras = extras(member(element(member(root, "scenes"), scene.is_null() ? Json(0u) : scene), "extras"));
 

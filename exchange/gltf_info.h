@@ -28,6 +28,7 @@ struct GltfInfo {
   std::uint64_t file_bytes = 0;
   std::uint64_t triangles = 0;  ///< as drawn: over nodes
   std::uint64_t vertices = 0;   ///< as stored: over position accessors, each once
+  std::size_t wind_meshes = 0;  ///< with wind weights (_WIND)
   std::size_t meshes = 0, materials = 0, images = 0, cameras = 0, lights = 0;
   std::vector<GltfNode> nodes;
   scene::Extras extras;  ///< of the scene

@@ -96,6 +96,7 @@ void put_mesh(const MeshFacts& facts, bool reorder, const auto& put) {
     return std::array{normalized_short(uv.x), normalized_short(uv.y)};
   });
   put(Stream::colour, n, [&](std::size_t k) { return mesh.colours[at[k]]; });
+  put(Stream::wind, n, [&](std::size_t k) { return mesh.wind[at[k]]; });
   put(Stream::index_short, order.indices.size(),
       [&](std::size_t k) { return static_cast<std::uint16_t>(order.indices[k]); });
   put(Stream::index_int, order.indices.size(), [&](std::size_t k) { return order.indices[k]; });
@@ -134,6 +135,7 @@ std::uint64_t element_bytes(Stream stream) {
     case Stream::tangent_byte:
     case Stream::uv_short:
     case Stream::colour:
+    case Stream::wind:
     case Stream::index_int:
     case Stream::instance_colour:
       return 4;
@@ -171,6 +173,8 @@ bool MeshFacts::has(Stream stream) const {
       return textured && uv_in_unit_square;
     case Stream::colour:
       return coloured;
+    case Stream::wind:
+      return !mesh->wind.empty();
     case Stream::index_short:
       return vertices <= kShortIndexVertices;
     case Stream::index_int:
@@ -199,9 +203,10 @@ Result<void> measure(MeshFacts& facts) {
   const TriangleMesh& mesh = *facts.mesh;
   const std::size_t n = mesh.positions.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == n; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.colours.size()))
-    return broken(fmt::format("{} positions, {} normals, {} texture coordinates and {} colours do not go together", n,
-                              mesh.normals.size(), mesh.uvs.size(), mesh.colours.size()));
+  if (!fits(mesh.normals.size()) || !fits(mesh.uvs.size()) || !fits(mesh.colours.size()) || !fits(mesh.wind.size()))
+    return broken(fmt::format(
+        "{} positions, {} normals, {} texture coordinates, {} colours and {} wind weights do not go together", n,
+        mesh.normals.size(), mesh.uvs.size(), mesh.colours.size(), mesh.wind.size()));
   if (facts.textured && mesh.uvs.empty()) return broken("its material has a texture, the mesh no coordinates for it");
   if (facts.bumpy && mesh.normals.empty()) return broken("its material has a normal map, the mesh no normals");
   if (mesh.indices.size() % 3 != 0) return broken(fmt::format("{} indices are no triangles", mesh.indices.size()));

@@ -34,6 +34,7 @@ enum class Stream {
   uv_float,
   uv_short,
   colour,
+  wind,
   index_short,
   index_int,
   instance_place,
@@ -42,7 +43,7 @@ enum class Stream {
   instance_size,
   instance_colour
 };
-inline constexpr std::size_t kStreams = 16;
+inline constexpr std::size_t kStreams = 17;
 
 /// Bytes of one element: a vertex's attribute, one index, or a number of an instance.
 std::uint64_t element_bytes(Stream stream);

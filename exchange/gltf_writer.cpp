@@ -38,6 +38,11 @@ std::string in_gigabytes(std::uint64_t bytes) {
                                : fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9);
 }
 
+bool has_wind(const GltfStock& stock) {
+  return std::any_of(stock.meshes.begin(), stock.meshes.end(),
+                     [](const MeshFacts& m) { return m.mesh && !m.mesh->wind.empty(); });
+}
+
 const Error kCancelled = cannot_finish("cancelled while writing glTF");
 
 // Room for the largest group, so that no larger one has to be copied.
@@ -182,6 +187,7 @@ Result<WrittenGltf> write_gltf(const scene::Model& model, const std::filesystem:
   if (auto checked = check_numbers(model); !checked) return checked.error();
   auto stock = take_stock(model, options);
   if (!stock) return stock.error();
+  if (options.instancing && has_wind(*stock)) return Error{std::string(kNoWindOfInstances)};
   const bool separate = ending == ".gltf", packs = options.compression == Compression::meshopt;
   // With separate files the data is encoded twice, packed and as it is.
   if (options.progress) options.progress->begin("export", stock->meshes.size() * (separate && packs ? 2 : 1));

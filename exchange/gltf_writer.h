@@ -15,6 +15,8 @@
 //           NAME-fallback.bin with the plain data for those that cannot
 // Levels    nodes: the levels of a tree as children NAME_LOD0, NAME_LOD1, ..., as game engines import them (a plain viewer
 //           shows them all at once). msft: MSFT_lod with MSFT_screencoverage; readers without it show the finest
+// Wind      meshes that have wind weights (geometry/wind.h) are written with the attribute _WIND, four normalized bytes;
+//           instances have none of their own, so the two are not written together
 // Images    JPEG for colour without alpha and for normal maps, PNG where alpha is tested
 // Frame     world, metres, +Y up: glTF's own; numbers go out as they are. Degrees become radians.
 // Decision  normal maps of cut-out materials (leaves) are left out unless asked for: the tangents they need are a third
@@ -23,7 +25,7 @@
 // Holds     same model, options and file name, same bytes: no time, no thread count; nothing unused is written; the
 //           file appears whole or not at all
 // Errors    `input`: a .glb that would exceed 2^32 - 1 bytes (refused before writing, with its size and ways out), an
-//           ending other than .glb or .gltf, what FileOutput refuses. `cannot_finish`: disk full, cancelled, a mesh
+//           ending other than .glb or .gltf, wind weights with instancing, what FileOutput refuses. `cannot_finish`: disk full, cancelled, a mesh
 //           with indices out of range or numbers that are not finite (names the node).
 // Cost      one pass over the vertices to measure, one to order and write; besides the model one group of meshes and
 //           the encoded images are held, with instancing 36 bytes an instance, with meshopt the packed data
@@ -60,6 +62,10 @@ struct GltfOptions {
   std::uint64_t max_glb_bytes = 0xffff'ffffu;  ///< a .glb's own limit; 2^31 - 1 suits web browsers
   float sun_intensity = 3.0f;  ///< of the directional light, "lux"; 3 lights white to about 1 in viewers
 };
+
+/// Why wind weights and instancing are not written together.
+inline constexpr std::string_view kNoWindOfInstances =
+    "leaves that are instances have no wind weights of their own: give --wind on or --instancing on, not both";
 
 /// What a model holds, before or without writing it.
 struct ModelCount {

@@ -81,6 +81,7 @@ TriangleMesh optimise(const TriangleMesh& mesh) {
   out.normals = gathered(mesh.normals, order.vertices);
   out.uvs = gathered(mesh.uvs, order.vertices);
   out.colours = gathered(mesh.colours, order.vertices);
+  out.wind = gathered(mesh.wind, order.vertices);
   out.indices = std::move(order.indices);
   return out;
 }

@@ -176,7 +176,8 @@ BranchCurves branch_curves(const growth::Skeleton& skeleton, std::span<const flo
   // Of each internode's upper end, for its children: where the curve passes, in which direction, at which sample.
   std::vector<Vec3> node_at(skeleton.size());
   std::vector<Vec3> node_heading(skeleton.size());
-  std::vector<std::uint32_t> node_sample(skeleton.size());
+  std::vector<std::uint32_t>& node_sample = result.node_sample;
+  node_sample.resize(skeleton.size());
   std::vector<Node> nodes;
   std::vector<BranchSample> parent_samples;
 

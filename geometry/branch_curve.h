@@ -51,7 +51,8 @@ struct BranchCurve {
 struct BranchCurves {
   std::vector<BranchCurve> curves;  ///< a parent precedes its children
   std::vector<BranchSample> samples;
-  float tip_radius = 0;  ///< of the thinnest wood; at most 4 mm
+  float tip_radius = 0;                      ///< of the thinnest wood; at most 4 mm
+  std::vector<std::uint32_t> node_sample{};  ///< of each standing internode's upper end, its place in `samples`
 
   std::span<const BranchSample> of(const BranchCurve& c) const { return {samples.data() + c.first, c.count}; }
 };

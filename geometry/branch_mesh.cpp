@@ -149,9 +149,17 @@ class Tints {
 
 class Mesher {
  public:
-  Mesher(const Look& look, std::size_t triangles, std::size_t vertices) : look_(look), tints_(look) {
+  Mesher(const Look& look, std::size_t triangles, std::size_t vertices, bool windy) : look_(look), tints_(look) {
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices), mesh.uvs.reserve(vertices);
     mesh.colours.reserve(vertices), mesh.indices.reserve(3 * triangles);
+    if (windy) mesh.wind.reserve(vertices);
+  }
+
+  /// Weights of a path's vertices, in the order of add_path().
+  void add_wind(std::span<const Rgba8> wind, const Rings& rings) {
+    for (const Ring& ring : rings.rings)
+      mesh.wind.insert(mesh.wind.end(), static_cast<std::size_t>(ring.sides) + 1, wind[ring.sample]);
+    mesh.wind.push_back(wind.back());
   }
 
   void add_path(std::span<const BranchSample> path, const Rings& rings, bool stem, RandomStream random) {
@@ -351,9 +359,9 @@ BranchPlan plan_branches_within(const BranchCurves& curves, std::size_t max_tria
 }
 
 TriangleMesh mesh_branches(const BranchCurves& curves, const BranchPlan& plan, const Look& look, std::uint64_t seed,
-                           std::uint64_t key) {
-  assert(plan.keep.size() == curves.curves.size());
-  Mesher mesher(look, plan.triangles, plan.vertices);
+                           std::uint64_t key, std::span<const Rgba8> wind) {
+  assert(plan.keep.size() == curves.curves.size() && (wind.empty() || wind.size() == curves.samples.size()));
+  Mesher mesher(look, plan.triangles, plan.vertices, !wind.empty());
   Rings rings;
   for (std::size_t c = 0; c < curves.curves.size(); ++c) {
     const BranchCurve& curve = curves.curves[c];
@@ -361,6 +369,7 @@ TriangleMesh mesh_branches(const BranchCurves& curves, const BranchPlan& plan, c
     const auto path = curves.of(curve);
     select_rings(path, curves.tip_radius, plan.coarseness, rings);
     mesher.add_path(path, rings, curve.parent < 0, RandomStream(seed, mix_bits(key) + c, Purpose::branch_mesh));
+    if (!wind.empty()) mesher.add_wind(wind.subspan(curve.first, curve.count), rings);
   }
   assert(mesher.mesh.triangles() == plan.triangles && mesher.mesh.positions.size() == plan.vertices);
   return std::move(mesher.mesh);

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -43,8 +44,9 @@ BranchPlan plan_branches(const BranchCurves& curves, float coarseness);
 BranchPlan plan_branches_within(const BranchCurves& curves, std::size_t max_triangles);
 inline constexpr std::size_t kLeastStemTriangles = 9;
 
+/// `wind`: weights of each of the curves' samples (wind.h), or none.
 TriangleMesh mesh_branches(const BranchCurves& curves, const BranchPlan& plan, const Look& look, std::uint64_t seed,
-                           std::uint64_t key);
+                           std::uint64_t key, std::span<const Rgba8> wind = {});
 
 /// Share of the light of an open sky that wood or leaves at exposure L receive: linear, kDeepShade..1.
 float occlusion(float exposure);

@@ -13,6 +13,7 @@
 #include "geometry/leafy_wood.h"
 #include "geometry/petiole.h"
 #include "geometry/shares.h"
+#include "geometry/wind.h"
 
 namespace bosquet::geometry {
 namespace {
@@ -82,7 +83,7 @@ class FoliageMesher {
 
   TriangleMesh mesh() {
     const std::size_t triangles = count_ * triangles_per_site(look_, level_);
-    CardWriter cards(crown_, look_.soft_normals, triangles, folded_ ? 6 * count_ : 2 * triangles);
+    CardWriter cards(crown_, look_.soft_normals, triangles, folded_ ? 6 * count_ : 2 * triangles, in_.wind != nullptr);
     std::array<const LeafSite*, 4> waiting;
     int waits = 0;
     const auto write_waiting = [&] {
@@ -96,6 +97,7 @@ class FoliageMesher {
       if (!last || site.internode != last->internode || site.place != last->place) {
         write_waiting();
         stand_twig(site);
+        if (in_.wind) cards.set_wind(in_.wind->on(*in_.skeleton, site.internode, site.at));
       }
       last = &site;
       if (!single_) {
@@ -247,6 +249,8 @@ class FoliageMesher {
       dress(*sites[static_cast<std::size_t>(k)], random[static_cast<std::size_t>(k)], k, card);
     // A card that stands for many grows around its place, not out of the crown.
     card.foot = select(is_leaf, card.foot - 0.5f * crowding_ * card.length * card.heading, card.foot);
+    if (in_.wind)
+      for (std::size_t k = 0; k < sites.size(); ++k) card.still[k] = sites[k]->leaf == LeafSite::kTwigWood;
     cards.add(card, out_);
   }
 

@@ -108,6 +108,8 @@ struct LeafSite {
   bool is_leafy() const { return leaf != kTwigWood && leaf < kFirstBunch; }  ///< a leaf or leafed twig: has leaf area
 };
 
+struct TreeWind;
+
 struct FoliageInput {
   const growth::Skeleton* skeleton = nullptr;
   const ThickestPaths* paths = nullptr;
@@ -117,6 +119,7 @@ struct FoliageInput {
   const FoliageLook* foliage = nullptr;
   Season season = Season::summer;
   std::uint64_t seed = 0, key = 0;
+  const TreeWind* wind = nullptr;  ///< for weights of the cards' vertices
 };
 
 /// All sites of a level, along the branches from path to path. None on a bare tree without leaves, except that clusters

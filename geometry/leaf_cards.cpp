@@ -21,10 +21,11 @@ Crown::Crown(const growth::Skeleton& s, std::span<const LeafSite> sites) {
   curvature_ = {1.0f / (0.5f * level + 0.05f), 1.0f / (upright + 0.05f), 1.0f / (0.5f * level + 0.05f)};
 }
 
-CardWriter::CardWriter(const Crown& crown, float soft, std::size_t triangles, std::size_t vertices)
-    : crown_(crown), soft_(soft) {
+CardWriter::CardWriter(const Crown& crown, float soft, std::size_t triangles, std::size_t vertices, bool windy)
+    : crown_(crown), soft_(soft), windy_(windy) {
   mesh_.positions.resize(vertices), mesh_.normals.resize(vertices), mesh_.uvs.resize(vertices);
   mesh_.colours.resize(vertices), mesh_.indices.resize(3 * triangles);
+  if (windy) mesh_.wind.resize(vertices);
 }
 
 inline void CardWriter::corner(const Vec3& position, const Vec3& normal, float u, float v, Rgba8 colour) {
@@ -40,6 +41,13 @@ inline void CardWriter::strip(std::uint32_t first, std::uint32_t row, bool front
     to[0] = to[3] = a, to[1] = front ? b : d, to[2] = front ? d : b, to[4] = front ? d : c, to[5] = front ? c : d;
     index_ += 6;
   }
+}
+
+/// Of two rows of vertices, at the foot and at the far end.
+void CardWriter::weigh(std::uint32_t first, std::uint32_t row, bool flutters) {
+  std::fill_n(mesh_.wind.begin() + first, 2 * row, wind_);
+  if (!flutters) return;
+  for (std::uint32_t k = first + row; k < first + 2 * row; ++k) mesh_.wind[k].z = 255;
 }
 
 namespace {
@@ -68,6 +76,7 @@ void CardWriter::add_flat(const LeafCard& c) {
   put(c.foot + l, c.uv.u0, c.uv.v1), put(c.foot + r, c.uv.u1, c.uv.v1);
   put(c.foot + l + to_top, c.uv.u0, c.uv.v0), put(c.foot + r + to_top, c.uv.u1, c.uv.v0);
   strip(first, 2, front);
+  if (windy_) weigh(first, 2, true);
 }
 
 void CardWriter::add_folded(const LeafCard& c) {
@@ -84,6 +93,7 @@ void CardWriter::add_folded(const LeafCard& c) {
   put(c.foot + l + to_top, c.uv.u0, c.uv.v0, -1), put(c.foot + to_top, middle, c.uv.v0, 0);
   put(c.foot + r + to_top, c.uv.u1, c.uv.v0, 1);
   strip(first, 3, front);
+  if (windy_) weigh(first, 3, true);
 }
 
 void CardWriter::add(const SmallCards& c, const Vec3& out) {
@@ -95,6 +105,7 @@ void CardWriter::add(const SmallCards& c, const Vec3& out) {
   const Vec3x4 normal = unit(mix(select(front, c.up, -c.up), outward, soft), all4(kUp));
   const Vec3x4 left = c.foot + half, right = c.foot - half;
   const Vec3x4 left_top = left + to_top, right_top = right + to_top;
+  const auto begin = static_cast<std::uint32_t>(vertex_);
   for (int k = 0; k < c.count; ++k) {
     const auto first = static_cast<std::uint32_t>(vertex_);
     const AtlasCell& uv = c.uv[k];
@@ -103,6 +114,8 @@ void CardWriter::add(const SmallCards& c, const Vec3& out) {
     corner(left_top.lane(k), n, uv.u0, uv.v0, c.colour[k]), corner(right_top.lane(k), n, uv.u1, uv.v0, c.colour[k]);
     strip(first, 2, front[k] != 0);
   }
+  if (!windy_) return;
+  for (int k = 0; k < c.count; ++k) weigh(begin + 4 * static_cast<std::uint32_t>(k), 2, !c.still[k]);
 }
 
 TriangleMesh CardWriter::take() {

@@ -44,12 +44,16 @@ struct SmallCards {
   AtlasCell uv[4];
   Rgba8 colour[4];
   int count = 0;
+  bool still[4]{};  ///< does not flutter; read only where there is wind
 };
 
 class CardWriter {
  public:
-  /// For so many triangles and vertices in all. `soft`: how far normals are bent outward.
-  CardWriter(const Crown& crown, float soft, std::size_t triangles, std::size_t vertices);
+  /// For so many triangles and vertices in all. `soft`: how far normals are bent outward. `windy`: cards get weights.
+  CardWriter(const Crown& crown, float soft, std::size_t triangles, std::size_t vertices, bool windy);
+
+  /// Weights of the foot of all cards that follow (wind.h); their far ends flutter.
+  void set_wind(Rgba8 at_foot) { wind_ = at_foot; }
 
   void add_flat(const LeafCard& card);    ///< 4 vertices
   void add_folded(const LeafCard& card);  ///< 6 vertices
@@ -67,9 +71,12 @@ class CardWriter {
   Spread spread(const LeafCard& card) const;
   void corner(const Vec3& position, const Vec3& normal, float u, float v, Rgba8 colour);
   void strip(std::uint32_t first, std::uint32_t row, bool front);
+  void weigh(std::uint32_t first, std::uint32_t row, bool flutters);
 
   const Crown& crown_;
   float soft_;
+  bool windy_;
+  Rgba8 wind_{0};
   TriangleMesh mesh_;
   std::size_t vertex_ = 0, index_ = 0;
 };

@@ -21,6 +21,8 @@ constexpr int kRounds = 8;  // of measuring and mending
 
 struct Patch {
   Vec3 centre{0.0f}, normal{0.0f}, colour{0.0f};
+  Vec2 way{0.0f};  // of its wind weights
+  std::uint8_t phase = 0;
   float weight = 0.0f;
 };
 
@@ -55,10 +57,14 @@ std::vector<Patch> divide(const TriangleMesh& foliage, const Box3& box, std::siz
     patch.weight += weight;
     patch.centre += weight * at;
     patch.colour += weight * (foliage.colours.empty() ? Vec3(1.0f) : Vec3(foliage.colours[a]) / 255.0f);
+    if (!foliage.wind.empty()) {
+      patch.way += weight * Vec2(foliage.wind[a].x, foliage.wind[a].y);
+      patch.phase = foliage.wind[a].w;
+    }
   }
   std::erase_if(patches, [](const Patch& p) { return p.weight <= 0.0f; });
   for (Patch& p : patches) {
-    p.centre = p.centre / p.weight, p.colour = p.colour / p.weight;
+    p.centre = p.centre / p.weight, p.colour = p.colour / p.weight, p.way = p.way / p.weight;
     p.normal = unit((p.centre - middle) / (half * half), kUp);
   }
   return patches;
@@ -150,6 +156,10 @@ TriangleMesh crown_shell(const TriangleMesh& foliage, const RasterSkin& leaf, co
       if (got.colour[c] > 0.0f) tint[c] = std::clamp(tint[c] * wanted.colour[c] / got.colour[c], 0.2f, 3.0f);
     mesh = built();
   }
+  // A patch moves as a whole.
+  if (!foliage.wind.empty())
+    for (const Patch& p : parts)
+      mesh.wind.insert(mesh.wind.end(), 4, {unorm8(p.way.x / 255.0f), unorm8(p.way.y / 255.0f), 0, p.phase});
   return mesh;
 }
 

@@ -19,6 +19,7 @@
 namespace bosquet::geometry {
 
 /// At most `patches` patches of two triangles; none for no foliage. `leaf` is the skin of `foliage`, `mass` of the shell.
+/// Where the foliage has wind weights a patch has their mean, and the phase of a leaf in it.
 TriangleMesh crown_shell(const TriangleMesh& foliage, const RasterSkin& leaf, const RasterSkin& mass,
                          std::size_t patches, std::uint64_t key);
 

@@ -29,6 +29,11 @@ std::size_t stems(const growth::Skeleton& skeleton, int season) {
   return n;
 }
 
+TreeWind tree_wind(const TreeInput& tree) {
+  const auto stands = standing(*tree.skeleton, tree.options.season_of_growth);
+  return tree_wind(*tree.skeleton, tree.radius, thickest_paths(*tree.skeleton, tree.radius, stands), tree.options.key);
+}
+
 TreeMesh source_mesh(const TreeInput& tree) {
   MeshOptions options = tree.options;
   options.foliage = FoliageLevel::clusters;
@@ -40,12 +45,18 @@ TreeMesh build_shell(const TreeInput& tree, const TreeMesh& source, const TreeSk
   const std::size_t budget = tree.options.max_triangles;
   const auto share = static_cast<std::size_t>(kWoodOfLevel * static_cast<double>(budget));
   const auto stands = standing(*tree.skeleton, tree.options.season_of_growth);
-  const BranchCurves curves =
-      branch_curves(*tree.skeleton, tree.radius, thickest_paths(*tree.skeleton, tree.radius, stands));
+  const ThickestPaths paths = thickest_paths(*tree.skeleton, tree.radius, stands);
+  const BranchCurves curves = branch_curves(*tree.skeleton, tree.radius, paths);
   const BranchPlan plan = plan_branches_within(curves, source.leaves.empty() ? budget : share);
   TreeMesh shell;
   shell.foliage = FoliageLevel::cards;
-  shell.branches = mesh_branches(curves, plan, *tree.look, tree.options.seed, tree.options.key);
+  std::vector<Rgba8> of_samples;
+  if (tree.options.wind) {
+    const TreeWind wind = tree_wind(*tree.skeleton, tree.radius, paths, tree.options.key);
+    of_samples = curve_wind(wind, *tree.skeleton, paths, curves);
+    shell.wind_m = wind.longest_m;
+  }
+  shell.branches = mesh_branches(curves, plan, *tree.look, tree.options.seed, tree.options.key, of_samples);
   const std::size_t rest = budget - std::min(budget, plan.triangles);
   const bool masses = source.foliage == FoliageLevel::cards;
   shell.leaves = crown_shell(source.leaves, masses ? skins.mass : skins.leaf, skins.mass, rest / 2, tree.options.key);

@@ -20,6 +20,7 @@
 #include "geometry/impostor.h"
 #include "geometry/lod_raster.h"
 #include "geometry/tree_mesh.h"
+#include "geometry/wind.h"
 
 namespace bosquet::geometry {
 
@@ -54,6 +55,9 @@ struct ImpostorPlace {
   Image* atlas = nullptr;
   ImpostorBlock block;
 };
+
+/// Its wind weights (wind.h).
+TreeWind tree_wind(const TreeInput& tree);
 
 /// The source mesh of a tree's coarse levels.
 TreeMesh source_mesh(const TreeInput& tree);

@@ -6,6 +6,7 @@
 
 #include "geometry/branch_mesh.h"
 #include "geometry/thickest_path.h"
+#include "geometry/wind.h"
 
 namespace bosquet::geometry {
 namespace {
@@ -56,8 +57,10 @@ TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float
   const auto stands = standing(skeleton, options.season_of_growth);
   const ThickestPaths paths = thickest_paths(skeleton, radius, stands);
   const BranchCurves curves = branch_curves(skeleton, radius, paths);
-  const FoliageInput input{&skeleton,      &paths,       radius,     options.season_of_growth, &look, &foliage,
-                           options.season, options.seed, options.key};
+  TreeWind wind;
+  if (options.wind) wind = tree_wind(skeleton, radius, paths, options.key);
+  const FoliageInput input{&skeleton,      &paths,       radius,      options.season_of_growth,      &look, &foliage,
+                           options.season, options.seed, options.key, options.wind ? &wind : nullptr};
   FoliageLevel level = options.foliage;
   std::vector<LeafSite> sites = leaf_sites(input, level);
   std::size_t cards = cards_wanted(level, sites.size());
@@ -87,8 +90,10 @@ TreeMesh build_tree_mesh(const growth::Skeleton& skeleton, std::span<const float
     if (level != FoliageLevel::cards && !sites.empty()) keep_to_drawn_wood(sites, paths, plan, skeleton.size());
     cards = std::min({cards, sites.size(), rest / triangles_per_site(foliage, level)});
   }
-  return {mesh_branches(curves, plan, look, options.seed, options.key), mesh_foliage(input, level, sites, cards),
-          level};
+  std::vector<Rgba8> of_samples;
+  if (options.wind) of_samples = curve_wind(wind, skeleton, paths, curves);
+  return {mesh_branches(curves, plan, look, options.seed, options.key, of_samples),
+          mesh_foliage(input, level, sites, cards), level, wind.longest_m};
 }
 
 std::size_t estimate_triangles(const growth::Skeleton& skeleton, std::span<const float> radius, const Look& look,

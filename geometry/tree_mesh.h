@@ -29,12 +29,14 @@ struct MeshOptions {
   std::size_t max_triangles = 0;  ///< 0: no limit
   std::uint64_t seed = 0;         ///< of the document
   std::uint64_t key = 0;          ///< of the tree
+  bool wind = false;              ///< meshes get wind weights (wind.h)
 };
 
 struct TreeMesh {
   TriangleMesh branches;  ///< to be drawn with the species' bark
   TriangleMesh leaves;    ///< to be drawn with the species' leaf atlas of the season, double sided, alpha tested
   FoliageLevel foliage = FoliageLevel::clusters;  ///< what the leaves became; cards show the foliage mass instead
+  float wind_m = 0;                               ///< with wind weights: how far what moves most does at kWindStrain
 
   std::size_t triangles() const { return branches.triangles() + leaves.triangles(); }
 };

@@ -160,6 +160,7 @@ std::size_t mesh_bytes(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
     const TriangleMesh& mesh = *part.mesh;
     add(mesh.positions), add(mesh.normals), add(mesh.uvs), add(mesh.colours), add(mesh.indices);
+    add(mesh.wind);
   }
   return sum;
 }
@@ -270,7 +271,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
                    radii[i],
                    &species.look,
                    &species.foliage,
-                   {tree.season, options.season, options.foliage, 0, document.seed, tree.key}};
+                   {tree.season, options.season, options.foliage, 0, document.seed, tree.key, options.wind}};
     order.species = tree.species;
     order.size = Vec2(tree.crown_m, tree.height_m);
     order.need = need[i] =
@@ -299,6 +300,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     node.name = std::move(trees[i].name);
     node.translation = trees[i].base;
     node.extras = std::move(trees[i].extras);
+    if (options.wind) node.extras.emplace_back("wind_m", static_cast<double>(parts[i].wind_m));
     node.parts = std::move(parts[i].parts);
     node.coarser = std::move(parts[i].coarser);
     node.coverage = parts[i].coverage;

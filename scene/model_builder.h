@@ -30,6 +30,7 @@ struct ModelOptions {
   geometry::FoliageLevel foliage = geometry::FoliageLevel::clusters;
   std::size_t max_triangles = 3'000'000;     ///< of the finest levels; 0: no limit
   bool levels = false;                       ///< trees get coarser levels too (scene/tree_parts.h)
+  bool wind = false;                         ///< trees get wind weights (geometry/wind.h)
   const PaintingCache* paintings = nullptr;  ///< textures painted before; may be null
   /// Called from any thread with the index of a tree of the scene whose skeleton is not read any more: it may be given up.
   std::function<void(std::size_t)> meshed{};

@@ -129,32 +129,42 @@ class Builder {
           const std::vector<Image>& pages, std::size_t first_page_material)
       : trees_(trees), album_(album), skins_(skins), pages_(pages), first_page_material_(first_page_material) {}
 
-  std::vector<Part> mesh(std::size_t i, std::size_t budget, std::size_t* leaf_cards = nullptr) const {
+  std::vector<Part> mesh(std::size_t i, std::size_t budget, TreeParts* finest = nullptr) const {
     const geometry::TreeInput& in = trees_[i].input;
     geometry::MeshOptions options = in.options;
     options.max_triangles = budget;
     geometry::TreeMesh made = geometry::build_tree_mesh(*in.skeleton, in.radius, *in.look, *in.foliage, options);
-    if (leaf_cards)
-      *leaf_cards = made.leaves.triangles() /
-                    std::max<std::size_t>(1, geometry::triangles_per_site(*in.foliage, in.options.foliage));
+    if (finest) {
+      finest->leaf_cards = made.leaves.triangles() /
+                           std::max<std::size_t>(1, geometry::triangles_per_site(*in.foliage, in.options.foliage));
+      finest->wind_m = made.wind_m;
+    }
     return parts_of(std::move(made), trees_[i].species);
   }
 
-  std::vector<Part> shell(std::size_t i, std::size_t budget) const {
+  std::vector<Part> shell(std::size_t i, std::size_t budget, TreeParts* finest = nullptr) const {
     geometry::TreeInput in = trees_[i].input;
     in.options.max_triangles = budget;
-    return parts_of(geometry::build_shell(in, geometry::source_mesh(in), skins_[trees_[i].species]), trees_[i].species);
+    geometry::TreeMesh made = geometry::build_shell(in, geometry::source_mesh(in), skins_[trees_[i].species]);
+    if (finest) finest->wind_m = made.wind_m;
+    return parts_of(std::move(made), trees_[i].species);
   }
 
-  std::vector<Part> cards(std::size_t i, std::size_t budget) const {
+  std::vector<Part> cards(std::size_t i, std::size_t budget, TreeParts* finest = nullptr) const {
     const Picture& picture = album_.pictures[album_.of_tree[i]];
     const std::size_t count =
         budget >= geometry::kFourCardTriangles ? geometry::kFourCardTriangles : geometry::kTwoCardTriangles;
     const Vec2 painted = trees_[picture.tree].size;
     const Vec2 stretch = picture.tree == i ? Vec2(1.0f) : trees_[i].size / glm::max(painted, Vec2(1e-3f));
     const Image& page = pages_[picture.page];
-    return {{shared(geometry::impostor_cards(picture.frame, picture.block, page.width, page.height, count, stretch)),
-             first_page_material_ + 2 * picture.page + (count == geometry::kTwoCardTriangles)}};
+    TriangleMesh made = geometry::impostor_cards(picture.frame, picture.block, page.width, page.height, count, stretch);
+    if (trees_[i].input.options.wind) {
+      const geometry::TreeWind wind = geometry::tree_wind(trees_[i].input);
+      geometry::lean_with_height(made, wind);
+      if (finest) finest->wind_m = wind.longest_m;
+    }
+    return {
+        {shared(std::move(made)), first_page_material_ + 2 * picture.page + (count == geometry::kTwoCardTriangles)}};
   }
 
  private:
@@ -225,14 +235,14 @@ std::vector<TreeParts> build_tree_parts(std::span<const TreeOrder> trees, bool l
     TreeParts& own = out[i];
     switch (own.form) {
       case TreeForm::mesh:
-        own.parts = build.mesh(i, trees[i].budget, &own.leaf_cards);
+        own.parts = build.mesh(i, trees[i].budget, &own);
         break;
       case TreeForm::shell:
-        own.parts = build.shell(i, trees[i].budget);
+        own.parts = build.shell(i, trees[i].budget, &own);
         break;
       case TreeForm::four_cards:
       case TreeForm::two_cards:
-        own.parts = build.cards(i, trees[i].budget);
+        own.parts = build.cards(i, trees[i].budget, &own);
         break;
     }
     if (levels) add_levels(build, i, own.form, own);

@@ -37,6 +37,7 @@ struct TreeParts {
   std::vector<Part> parts;
   std::vector<Level> coarser;
   float coverage = 0.0f;       ///< of `parts`
+  float wind_m = 0.0f;         ///< with wind weights: how far what moves most does (geometry/wind.h)
   std::size_t leaf_cards = 0;  ///< leaves or leafed twigs in `parts`
   geometry::TreeForm form = geometry::TreeForm::mesh;
 };

@@ -178,6 +178,7 @@ TEST_F(BadInput, AMistypedWordIsToldAloneWithTheNearestRightOne) {
   says("make x.toml -o .", ".: is a folder; name a file in it");
   says("make x.toml -o park", "park: has no ending, which tells what to write");
   says("make x.toml -o park.glb --tree 1", "needs an output that it goes into, -o NAME.tree.json");
+  says("make x.toml -o park.glb --wind on --instancing on", "give --wind on or --instancing on, not both");
 }
 
 }  // namespace

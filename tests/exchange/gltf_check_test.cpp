@@ -91,6 +91,23 @@ TEST_F(GltfCheckTest, OurOwnFilesHaveNoFaults) {
         }
 }
 
+TEST_F(GltfCheckTest, WindWeightsAreFourSharesOfOne) {
+  ASSERT_TRUE(write_gltf(windy_model(), folder_ / "a.glb"));
+  EXPECT_TRUE(checked().good());
+  const auto trunk = [](Json& json) -> Json& { return json["meshes"][1]["primitives"][0]["attributes"]; };
+  EXPECT_TRUE(
+      says(after([&](Json& json) { json["accessors"][trunk(json)["_WIND"].get<std::size_t>()].erase("normalized"); }),
+           "(_WIND): four floats, normalized bytes"));
+  EXPECT_TRUE(says(after([&](Json& json) { trunk(json)["_WIND"] = trunk(json)["NORMAL"]; }), "(_WIND): four floats"));
+  // Tangents are four floats, some below 0.
+  EXPECT_TRUE(
+      says(after([&](Json& json) { trunk(json)["_WIND"] = trunk(json)["TANGENT"]; }), "does not lie in 0 to 1"));
+  EXPECT_TRUE(says(after([&](Json& json) {
+                     --json["accessors"][trunk(json)["_WIND"].get<std::size_t>()]["count"].get_ref<std::int64_t&>();
+                   }),
+                   "_WIND has"));
+}
+
 TEST_F(GltfCheckTest, GarbageInPackedDataIsFound) {
   std::string bytes = slurp(folder_ / "a.glb");
   std::uint32_t length = 0;

@@ -38,6 +38,14 @@ TEST(GltfInfo, SaysWhatTheWriterPutIn) {
   }
 }
 
+TEST(GltfInfo, CountsTheMeshesThatHaveWindWeights) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_gltf(sample_model(), folder / "still.glb"));
+  EXPECT_EQ(read_gltf_info(folder / "still.glb")->wind_meshes, 0u);
+  ASSERT_TRUE(write_gltf(windy_model(), folder / "windy.glb"));
+  EXPECT_EQ(read_gltf_info(folder / "windy.glb")->wind_meshes, 1u);  // that all trees share
+}
+
 class Hostile : public ::testing::Test {
  protected:
   std::string message(std::string_view content) {

@@ -111,6 +111,32 @@ TEST_F(Judges, EveryCombinationOfOptionsIsValidAndDecodesToThePlainTriangles) {
   EXPECT_EQ(same.status, 0) << same.text;
 }
 
+TEST_F(Judges, WindWeightsAreValidAndComeThroughEveryCompression) {
+  scene::Model model = windy_model();
+  const auto trunk = std::make_shared<TriangleMesh>(*model.nodes[1].parts[0].mesh);
+  for (std::size_t i = 1; i < 4; ++i) model.nodes[i].coarser = {{{{trunk, 0}}, 0.0f}};
+  std::string files;
+  for (std::size_t c = 0; c < kCompressionNames.size(); ++c)
+    for (const char* ending : {".glb", ".gltf"}) {
+      GltfOptions options;
+      options.compression = static_cast<Compression>(c), options.lod = LodFiles::nodes;
+      const std::filesystem::path file = folder_ / (std::string(kCompressionNames[c]) + ending);
+      ASSERT_TRUE(write_gltf(model, file, options));
+      files += " " + quoted(file);
+    }
+  const Said valid = ask("validate.mjs", files), same = ask("compare.mjs", files);
+  EXPECT_EQ(valid.status, 0) << valid.text;
+  EXPECT_EQ(same.status, 0) << same.text;
+  // One weight of one vertex a step aside.
+  TriangleMesh crown = *model.nodes[2].parts[1].mesh;
+  crown.wind[40].z = static_cast<std::uint8_t>(crown.wind[40].z + 1);
+  model.nodes[2].parts[1].mesh = std::make_shared<TriangleMesh>(crown);
+  ASSERT_TRUE(write_gltf(model, folder_ / "other.glb"));
+  const Said differs = ask("compare.mjs", quoted(folder_ / "none.glb") + " " + quoted(folder_ / "other.glb"));
+  EXPECT_EQ(differs.status, 1) << differs.text;
+  EXPECT_NE(differs.text.find("english_oak-2: no counterpart"), std::string::npos) << differs.text;
+}
+
 TEST_F(Judges, TheComparisonIsAwake) {
   scene::Model model = sample_model();
   ASSERT_TRUE(write_gltf(model, folder_ / "plain.glb"));
@@ -225,6 +251,46 @@ TEST_F(Judges, ThreeJsCutsLeavesOut) {
       white += v == 255;
     }
   EXPECT_NEAR(white, kPi / 4 * 100 * 100, 0.02 * 100 * 100);  // a pixel's rim of the circle is 3 %
+}
+
+TEST_F(Judges, ThreeJsMovesWhatHasWindWeightsAndNothingElse) {
+  // A post whose upper half gives way, a metre at the top; one without weights beside it.
+  scene::Model model;
+  model.materials.emplace_back();
+  TriangleMesh post = tube(8, 2, 0.2f, 4.0f, 1.0f);
+  const auto still = std::make_shared<TriangleMesh>(post);
+  for (const Vec3& p : post.positions) post.wind.push_back({p.y > 3.0f ? 255 : 0, 0, 0, 0});
+  model.nodes.push_back({"still", Vec3(-3, 0, 0), {{still, 0}}, {}});
+  model.nodes.push_back({"windy", Vec3(0, 0, 0), {{std::make_shared<TriangleMesh>(post), 0}}, {{"wind_m", 1.0}}});
+  GltfOptions options;
+  options.compression = Compression::quantize;
+  ASSERT_TRUE(write_gltf(model, folder_ / "a.glb", options));
+  // From 20 m a field of view of 2 atan(1/4) shows 10 m: 20 pixels a metre. White columns of a row, from left to right.
+  const auto row_at = [&](float height_m, const char* wind) {
+    const Said said = ask("view.mjs", quoted(folder_ / "a.glb") + " " + quoted(folder_ / "a.png") +
+                                          " --silhouette --size 200x200 --fov 28.0725 --camera 0,2,20,0,2,0" + wind);
+    EXPECT_EQ(said.status, 0) << said.text;
+    std::vector<double> at;  // the middle of each post
+    const auto picture = read_image(folder_ / "a.png");
+    EXPECT_TRUE(picture);
+    const int y = static_cast<int>(100.0f - 20.0f * (height_m - 2.0f));
+    for (int x = 1, from = 0; x < 200; ++x) {
+      const bool before = picture->at(x - 1, y)[0] > 0, now = picture->at(x, y)[0] > 0;
+      if (now && !before) from = x;
+      if (before && !now) at.push_back(0.5 * (from + x));
+    }
+    return at;
+  };
+  // At second 0 a gust of force 1 takes the top 0.6 m east, the middle stays.
+  const std::vector<double> low = row_at(1.0f, " --wind 0,1"), calm = row_at(3.9f, ""),
+                            high = row_at(3.9f, " --wind 0,1");
+  ASSERT_EQ(low.size(), 2u);
+  ASSERT_EQ(calm.size(), 2u);
+  ASSERT_EQ(high.size(), 2u);
+  EXPECT_NEAR(calm[1], 100.0, 1.0);
+  EXPECT_NEAR(low[1], 100.0, 1.0);
+  EXPECT_NEAR(high[0], calm[0], 0.5);
+  EXPECT_NEAR(high[1] - calm[1], 20.0 * 0.6 * 0.95, 1.5);  // just below the top
 }
 
 TEST_F(Judges, AFileThatCannotBeShownIsSaidSo) {

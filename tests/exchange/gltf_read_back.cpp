@@ -72,6 +72,7 @@ ReadPrimitive read_primitive(const tinygltf::Model& model, const tinygltf::Primi
   out.normals = vectors<Vec3>(attribute("NORMAL"));
   out.tangents = vectors<Vec4>(attribute("TANGENT"));
   out.colours = vectors<Vec4>(attribute("COLOR_0"));
+  out.wind = vectors<Vec4>(attribute("_WIND"));
   out.uvs = vectors<Vec2>(attribute("TEXCOORD_0"));
   for (double i : components(model, static_cast<std::size_t>(from.indices)))
     out.indices.push_back(static_cast<std::uint32_t>(i));

@@ -11,7 +11,7 @@ namespace bosquet::exchange {
 
 struct ReadPrimitive {
   std::vector<Vec3> positions, normals;
-  std::vector<Vec4> tangents, colours;  ///< colours 0..1
+  std::vector<Vec4> tangents, colours, wind;  ///< colours and wind 0..1
   std::vector<Vec2> uvs;
   std::vector<std::uint32_t> indices;
   bool short_indices = false, short_uvs = false;

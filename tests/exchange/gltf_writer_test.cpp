@@ -71,6 +71,52 @@ TEST(GltfWriter, TinygltfReadsTheSameTrianglesBackFromBothKindsOfFile) {
     }
 }
 
+TEST(GltfWriter, WindWeightsComeBackByteForByteOnWhatHasThem) {
+  const ScratchFolder folder;
+  const scene::Model model = windy_model();
+  GltfOptions options;
+  options.reorder = false;
+  ASSERT_TRUE(write_gltf(model, folder / "a.glb", options));
+  const ReadBack back = read_back(folder / "a.glb");
+  ASSERT_EQ(back.error, "");
+  for (const scene::Node& node : model.nodes) {
+    const auto& primitives = back.meshes.at(static_cast<std::size_t>(named(back, node.name).mesh));
+    for (std::size_t k = 0; k < node.parts.size(); ++k) {
+      const std::vector<Rgba8>& given = node.parts[k].mesh->wind;
+      ASSERT_EQ(primitives[k].wind.size(), given.size()) << node.name;
+      for (std::size_t v = 0; v < given.size(); ++v)
+        EXPECT_EQ(glm::round(primitives[k].wind[v] * 255.0f), Vec4(given[v])) << node.name << " vertex " << v;
+    }
+  }
+}
+
+TEST(GltfWriter, WindWeightsGoWithTheirVerticesIntoTheBestOrder) {
+  const ScratchFolder folder;
+  const scene::Model model = windy_model();
+  ASSERT_TRUE(write_gltf(model, folder / "a.glb"));
+  const ReadBack back = read_back(folder / "a.glb");
+  // No two vertices of the trunk are at one place with one texture coordinate.
+  const TriangleMesh& trunk = *model.nodes[1].parts[0].mesh;
+  const ReadPrimitive& read = back.meshes.at(static_cast<std::size_t>(named(back, model.nodes[1].name).mesh)).front();
+  ASSERT_EQ(read.positions.size(), trunk.positions.size());
+  EXPECT_NE(read.positions, trunk.positions);
+  for (std::size_t v = 0; v < read.positions.size(); ++v) {
+    std::size_t same = 0;
+    while (trunk.positions[same] != read.positions[v] || trunk.uvs[same] != read.uvs[v]) ++same;
+    EXPECT_EQ(glm::round(read.wind[v] * 255.0f), Vec4(trunk.wind[same]));
+  }
+}
+
+TEST(GltfWriter, WindWeightsOfInstancesAreRefused) {
+  const ScratchFolder folder;
+  GltfOptions options;
+  options.instancing = true;
+  const auto written = write_gltf(windy_model(), folder / "a.glb", options);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message, kNoWindOfInstances);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+}
+
 TEST(GltfWriter, NodesKeepNamesPlacesAndExtras) {
   const ScratchFolder folder;
   GltfOptions options;

@@ -110,4 +110,21 @@ inline scene::Model sample_model() {
   return model;
 }
 
+/// The same with wind weights on what moves: different ones on every vertex of trunk and crown.
+inline scene::Model windy_model() {
+  scene::Model model = sample_model();
+  const auto windy = [](const TriangleMesh& still) {
+    auto mesh = std::make_shared<TriangleMesh>(still);
+    for (std::size_t v = 0; v < mesh->positions.size(); ++v) {
+      const auto byte = [&](std::size_t step) { return static_cast<std::uint8_t>(step * v); };
+      mesh->wind.push_back({byte(1), byte(7), byte(31), byte(97)});
+    }
+    return mesh;
+  };
+  const auto trunk = windy(*model.nodes[1].parts[0].mesh), crown = windy(*model.nodes[1].parts[1].mesh);
+  for (std::size_t i = 1; i < model.nodes.size(); ++i)
+    model.nodes[i].parts[0].mesh = trunk, model.nodes[i].parts[1].mesh = crown;
+  return model;
+}
+
 }  // namespace bosquet::exchange

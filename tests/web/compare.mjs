@@ -2,7 +2,7 @@
 // compares every triangle with those of a plain file:  node compare.mjs PLAIN OTHER...
 // For each node of the scene, by name: as many triangles; each has its own counterpart, with corners within half a step
 // of the quantization (or 0.1 mm, of instances 1 mm), normals within 2 degrees (not those of instances, which are a
-// card's), texture coordinates within 1/900, colours within 1.5/255. Of levels (NAME_LOD0, ...) the finest is compared.
+// card's), texture coordinates within 1/900, colours within 1.5/255, wind weights equal. Of levels (NAME_LOD0, ...) the finest is compared.
 // The decoded file, without its compression, must also please the Khronos validator.
 // Prints one line of JSON a file. Exit status: 0 equal, 1 not (message on stderr), 2 usage or a missing package.
 import path from 'node:path';
@@ -69,7 +69,7 @@ function addTriangles(node, world, soup) {
   if (!mesh) return;
   const instanced = node.getExtension('EXT_mesh_gpu_instancing') !== null;
   for (const primitive of mesh.listPrimitives()) {
-    const [position, normal, uv, colour] = ['POSITION', 'NORMAL', 'TEXCOORD_0', 'COLOR_0']
+    const [position, normal, uv, colour, wind] = ['POSITION', 'NORMAL', 'TEXCOORD_0', 'COLOR_0', '_WIND']
       .map((name) => primitive.getAttribute(name));
     const indices = primitive.getIndices().getArray();
     const whole = position.getComponentType() !== 5126;
@@ -84,6 +84,7 @@ function addTriangles(node, world, soup) {
             n: normal ? direction(matrix, normal.getElement(v, [])) : null,
             uv: uv ? uv.getElement(v, []) : null,
             c: [0, 1, 2].map((k) => tint[k] * instance.colour[k]),
+            wind: wind ? wind.getElement(v, []) : [],
           };
         });
         soup.push({ corners, tolerance, instanced, whole, material: primitive.getMaterial()?.getName() ?? '' });
@@ -117,6 +118,7 @@ const kCosine = Math.cos(2 * Math.PI / 180);
 function sameCorner(a, b, other) {
   if (!near(a.p, b.p, other.tolerance)) return false;
   if (!other.instanced && a.n && (!b.n || a.n[0] * b.n[0] + a.n[1] * b.n[1] + a.n[2] * b.n[2] < kCosine)) return false;
+  if (a.wind.length !== b.wind.length || !near(a.wind, b.wind, 1e-6)) return false;
   return (!a.uv || (b.uv !== null && sameTexel(a.uv, b.uv, other.whole ? 1 / 510 : 1 / 900))) && near(a.c, b.c, 1.5 / 255);
 }
 

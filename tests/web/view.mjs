@@ -1,7 +1,9 @@
 // Opens a glTF file with three.js in a headless browser and keeps the picture:
 //   node view.mjs FILE OUT.png [--camera ex,ey,ez,tx,ty,tz | --camera NAME] [--fov DEG] [--size 1280x720] [--silhouette]
+//     [--wind SECONDS,FORCE]
 // Prints one line of JSON: triangles, meshes, lights, cameras, bounding box, top nodes with their places, times.
 // --silhouette draws white on black without light; alpha is still tested.
+// --wind draws a file with wind weights at that time in a west wind of that force, 1 is a strong one (wind.js).
 // The browser is $CHROMIUM or the system's chromium; drawing is done in software. Nothing leaves this machine: files are
 // served from a port of the loopback device.
 // Exit status: 0 drawn, 1 the file cannot be shown (message on stderr), 2 usage or no browser.
@@ -26,6 +28,7 @@ function options() {
       fov: { type: 'string', default: '40' },
       size: { type: 'string', default: '1280x720' },
       silhouette: { type: 'boolean', default: false },
+      wind: { type: 'string' },
     },
   });
   if (positionals.length !== 2) throw new Error('two file names are needed');
@@ -40,6 +43,10 @@ function options() {
     if (numbers.length === 6 && numbers.every(Number.isFinite)) out.camera = numbers;
     else out.cameraName = values.camera;
   }
+  if (values.wind !== undefined) {
+    out.wind = values.wind.split(',').map(Number);
+    if (out.wind.length !== 2 || !out.wind.every(Number.isFinite)) throw new Error(`--wind ${values.wind} is not like 1.5,0.5`);
+  }
   return out;
 }
 
@@ -51,7 +58,8 @@ function serve(folder) {
   const roots = { '/three/': path.join(here, 'node_modules/three'), '/model/': folder };
   const server = http.createServer((request, response) => {
     const where = decodeURIComponent(new URL(request.url, 'http://loopback').pathname);
-    let file = where === '/' ? path.join(here, 'viewer.html') : null;
+    const own = { '/': 'viewer.html', '/wind.js': 'wind.js' }[where];
+    let file = own ? path.join(here, own) : null;
     for (const [prefix, root] of Object.entries(roots)) {
       if (!where.startsWith(prefix)) continue;
       const inside = path.join(root, where.slice(prefix.length));
@@ -73,7 +81,7 @@ try {
   wanted = options();
 } catch (error) {
   fail(2, `${error.message}\nusage: node view.mjs FILE OUT.png [--camera ex,ey,ez,tx,ty,tz | NAME] [--fov DEG] ` +
-    '[--size WxH] [--silhouette]');
+    '[--size WxH] [--silhouette] [--wind SECONDS,FORCE]');
 }
 if (!existsSync(wanted.file)) fail(1, `there is no file ${wanted.file}`);
 const browserPath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome']
