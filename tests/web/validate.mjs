@@ -21,7 +21,7 @@ async function judge(validator, file, shown) {
   const bytes = new Uint8Array(await readFile(file));
   const report = await validator.validateBytes(bytes, {
     uri: path.basename(file),
-    maxIssues: 100,
+    maxIssues: 0,  // no limit: it stops there, and notes count too
     writeTimestamp: false,
     externalResourceFunction: async (uri) =>
       new Uint8Array(await readFile(path.join(path.dirname(file), decodeURIComponent(uri)))),
