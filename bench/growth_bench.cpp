@@ -206,9 +206,9 @@ BENCHMARK(free_standing)->Unit(benchmark::kMillisecond);
 void steps(benchmark::State& state) {
   const Plot& plot = Plot::of(static_cast<int>(state.range(0)));
   const Parameters p = bench_parameters();
-  enum Step { start, light, space, vigor, fate, deflection, extension, shedding, steps };
-  constexpr std::array<const char*, steps> names{"start", "light%",      "space%",     "vigor%",
-                                                 "fate%", "deflection%", "extension%", "shedding%"};
+  enum Step { start, sensing, vigor, fate, deflection, extension, shedding, steps };
+  constexpr std::array<const char*, steps> names{"start",       "sensing%",   "vigor%",   "fate%",
+                                                 "deflection%", "extension%", "shedding%"};
   std::array<double, steps> seconds{};
   bool equal = true;
   for (auto _ : state) {
@@ -222,8 +222,7 @@ void steps(benchmark::State& state) {
       while (!tree.finished) {
         // As grow_season does, which `equal` checks.
         const std::size_t before = tree.wood.size();
-        update_habits(tree), sense_light(tree), lap(light);
-        compete_for_space(tree), lap(space);
+        update_habits(tree), sense(tree), lap(sensing);
         share_vigor(tree), lap(vigor);
         const bool any = choose_growing(tree);
         lap(fate);

@@ -4,11 +4,7 @@
 #include <cmath>
 
 #include "core/scalar.h"
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define BOSQUET_WIDE 1
-#include <immintrin.h>
-#endif
+#include "core/wide.h"
 
 namespace bosquet::distribution {
 namespace {
@@ -167,15 +163,6 @@ struct WideStamp {
 
 #endif
 
-bool wide_here() {
-#if BOSQUET_WIDE
-  static const bool wide = __builtin_cpu_supports("avx2");
-  return wide;
-#else
-  return false;
-#endif
-}
-
 }  // namespace
 
 std::uint64_t open_weight(std::uint32_t up, std::uint32_t down, std::uint32_t most_steps) {
@@ -242,7 +229,8 @@ void stamp_blocks_plainly(FieldBlocks& field, const BlockStamp& stamp, int sign,
 void stamp_blocks(FieldBlocks& field, const BlockStamp& stamp, int sign, IVec2 low, IVec2 high) {
 #if BOSQUET_WIDE
   constexpr std::uint32_t kWidest = 10u << kLogBits;  // weights that fit 31 bits
-  if (wide_here() && field.most_steps <= kWidest) return stamp_wide(field, stamp, sign, low, high);
+  static const bool wide = wide_here();
+  if (wide && field.most_steps <= kWidest) return stamp_wide(field, stamp, sign, low, high);
 #endif
   stamp_blocks_plainly(field, stamp, sign, low, high);
 }

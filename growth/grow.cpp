@@ -9,6 +9,7 @@
 
 #include "core/hash.h"
 #include "growth/detail.h"
+#include "growth/light.h"
 #include "growth/radii.h"
 #include "growth/tree.h"
 

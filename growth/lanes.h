@@ -45,6 +45,21 @@ inline Float4 root(Float4 v) {
   for (int i = 0; i < 4; ++i) v[i] = std::sqrt(v[i]);
   return v;
 }
+/// The larger and the smaller of two numbers without a branch, which std::max may become where b decides what follows.
+inline float larger(float a, float b) {
+#ifdef __SSE__
+  return __builtin_ia32_maxss(Float4{a, 0, 0, 0}, Float4{b, 0, 0, 0})[0];
+#else
+  return a > b ? a : b;
+#endif
+}
+inline float smaller(float a, float b) {
+#ifdef __SSE__
+  return __builtin_ia32_minss(Float4{a, 0, 0, 0}, Float4{b, 0, 0, 0})[0];
+#else
+  return a < b ? a : b;
+#endif
+}
 /// Towards zero.
 inline Int4 whole(Float4 v) { return __builtin_convertvector(v, Int4); }
 

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/scalar.h"
+#include "core/wide.h"
 #include "growth/lanes.h"
 
 namespace bosquet::growth {
 namespace {
 
 constexpr int kLanes = 4;
+constexpr std::size_t kPastEnd = 8;
 constexpr float kFarAway = 1e15f;
 constexpr float kWidth = 1.0f, kFlat = 0.25f;  ///< cells, in what buds reach
 constexpr std::size_t kBudsEach = 16;          ///< column, at least, in the mean
@@ -59,10 +62,11 @@ void PerceptionSamples::make(Points& p) {
 }
 
 void CompetitorIndex::build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle) {
-  cos_ = cos_half_angle;
+  cos_ = cos_half_angle, wide_ = wide_here();
   const std::size_t n = competitors.size();
-  x_.resize(n + kLanes), y_.resize(n + kLanes), z_.resize(n + kLanes);
-  along_x_.resize(n + kLanes), along_y_.resize(n + kLanes), along_z_.resize(n + kLanes), bud_.resize(n + kLanes);
+  x_.resize(n + kPastEnd), y_.resize(n + kPastEnd), z_.resize(n + kPastEnd);
+  along_x_.resize(n + kPastEnd), along_y_.resize(n + kPastEnd), along_z_.resize(n + kPastEnd),
+      bud_.resize(n + kPastEnd);
   cells_ = IVec3(0);
   if (n == 0) return;
   Box3 box;
@@ -101,13 +105,13 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
     along_x_[place] = c.direction.x, along_y_[place] = c.direction.y, along_z_[place] = c.direction.z;
     bud_[place] = c.bud;
   }
-  for (std::size_t i = n; i < n + kLanes; ++i) x_[i] = y_[i] = z_[i] = kFarAway;
+  for (std::size_t i = n; i < n + kPastEnd; ++i) x_[i] = y_[i] = z_[i] = kFarAway;
   // Each entry c + 1 now holds the start of cell c: move them down by one.
   for (std::size_t c = 0; c < cells; ++c) start_[c] = start_[c + 1];
   start_[cells] = static_cast<std::int32_t>(n);
 }
 
-std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_t fallback) const {
+std::int32_t CompetitorIndex::nearest_plainly(const Vec3& p, float within_m, std::int32_t fallback) const {
   const Vec3 q = p - low_;
   const IVec3 from = glm::max(IVec3((q - within_m) * inverse_), IVec3(0));
   const IVec3 to = glm::min(IVec3((q + within_m) * inverse_), cells_ - 1);
@@ -139,5 +143,61 @@ std::int32_t CompetitorIndex::nearest(const Vec3& p, float within_m, std::int32_
   }
   return best[nearest];
 }
+
+#if BOSQUET_WIDE
+
+[[gnu::target("avx2")]] std::int32_t CompetitorIndex::nearest_wide(const Vec3& p, float within_m,
+                                                                   std::int32_t fallback) const {
+  const Vec3 q = p - low_;
+  const IVec3 from = glm::max(IVec3((q - within_m) * inverse_), IVec3(0));
+  const IVec3 to = glm::min(IVec3((q + within_m) * inverse_), cells_ - 1);
+  if (from.y > to.y) return fallback;
+  const __m256 px = _mm256_set1_ps(p.x), py = _mm256_set1_ps(p.y), pz = _mm256_set1_ps(p.z);
+  const __m256 cos = _mm256_set1_ps(cos_);
+  __m256 least = _mm256_set1_ps(within_m * within_m);
+  __m256i best = _mm256_set1_epi32(fallback);
+  for (int x = from.x; x <= to.x; ++x) {
+    for (int z = from.z; z <= to.z; ++z) {
+      const std::size_t column = static_cast<std::size_t>((x * cells_.z + z) * cells_.y);
+      const auto begin = static_cast<std::size_t>(start_[column + static_cast<std::size_t>(from.y)]);
+      const auto end = static_cast<std::size_t>(start_[column + static_cast<std::size_t>(to.y) + 1]);
+      for (std::size_t i = begin; i < end; i += 8) {
+        const __m256 x8 = _mm256_sub_ps(px, _mm256_loadu_ps(&x_[i]));
+        const __m256 y8 = _mm256_sub_ps(py, _mm256_loadu_ps(&y_[i]));
+        const __m256 z8 = _mm256_sub_ps(pz, _mm256_loadu_ps(&z_[i]));
+        const __m256 squares =
+            _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x8, x8), _mm256_mul_ps(y8, y8)), _mm256_mul_ps(z8, z8));
+        const __m256 along = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x8, _mm256_loadu_ps(&along_x_[i])),
+                                                         _mm256_mul_ps(y8, _mm256_loadu_ps(&along_y_[i]))),
+                                           _mm256_mul_ps(z8, _mm256_loadu_ps(&along_z_[i])));
+        const __m256i bud = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(&bud_[i]));
+        const __m256 perceives = _mm256_cmp_ps(along, _mm256_mul_ps(cos, _mm256_sqrt_ps(squares)), _CMP_GE_OQ);
+        const __m256 older = _mm256_castsi256_ps(_mm256_cmpgt_epi32(best, bud));
+        const __m256 nearer = _mm256_cmp_ps(squares, least, _CMP_LT_OQ);
+        const __m256 as_near = _mm256_and_ps(_mm256_cmp_ps(squares, least, _CMP_EQ_OQ), older);
+        const __m256 better = _mm256_and_ps(_mm256_or_ps(nearer, as_near), perceives);
+        least = _mm256_blendv_ps(least, squares, better);
+        best = _mm256_castps_si256(_mm256_blendv_ps(_mm256_castsi256_ps(best), _mm256_castsi256_ps(bud), better));
+      }
+    }
+  }
+  // The least of eight, and the oldest of those that are as near.
+  __m128 four = _mm_min_ps(_mm256_castps256_ps128(least), _mm256_extractf128_ps(least, 1));
+  four = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  four = _mm_min_ps(four, _mm_shuffle_ps(four, four, 1));
+  const __m256 nearest = _mm256_cmp_ps(least, _mm256_broadcastss_ps(four), _CMP_EQ_OQ);
+  const __m256i last = _mm256_set1_epi32(std::numeric_limits<std::int32_t>::max());
+  best = _mm256_blendv_epi8(last, best, _mm256_castps_si256(nearest));
+  __m128i bud = _mm_min_epi32(_mm256_castsi256_si128(best), _mm256_extracti128_si256(best, 1));
+  bud = _mm_min_epi32(bud, _mm_shuffle_epi32(bud, 0x4e));
+  bud = _mm_min_epi32(bud, _mm_shuffle_epi32(bud, 0xb1));
+  return _mm_cvtsi128_si32(bud);
+}
+
+#else
+std::int32_t CompetitorIndex::nearest_wide(const Vec3& p, float within_m, std::int32_t fallback) const {
+  return nearest_plainly(p, within_m, fallback);
+}
+#endif
 
 }  // namespace bosquet::growth

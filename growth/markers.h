@@ -60,16 +60,23 @@ class CompetitorIndex {
   void build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle);
 
   /// The nearest bud that perceives p within `within_m`, ties by bud; `fallback` when there is none nearer.
-  std::int32_t nearest(const Vec3& p, float within_m, std::int32_t fallback) const;
+  std::int32_t nearest(const Vec3& p, float within_m, std::int32_t fallback) const {
+    return wide_ ? nearest_wide(p, within_m, fallback) : nearest_plainly(p, within_m, fallback);
+  }
+  /// The same as on any processor.
+  std::int32_t nearest_plainly(const Vec3& p, float within_m, std::int32_t fallback) const;
 
  private:
+  std::int32_t nearest_wide(const Vec3& p, float within_m, std::int32_t fallback) const;
+
+  bool wide_ = false;
   float cos_ = 0.0f;
   Vec3 inverse_{1.0f};  ///< of the size of a cell
   Vec3 low_{0.0f};
   IVec3 cells_{0};
   std::vector<std::int32_t> start_;  ///< by cell, and one past the last
   std::vector<std::int32_t> cell_of_;
-  std::vector<float> x_, y_, z_;                    ///< by cell, and four far away at the end
+  std::vector<float> x_, y_, z_;                    ///< by cell, and eight far away at the end
   std::vector<float> along_x_, along_y_, along_z_;  ///< directions
   std::vector<std::int32_t> bud_;
 };

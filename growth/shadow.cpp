@@ -2,26 +2,12 @@
 
 #include <algorithm>
 
-#include "growth/lanes.h"
-
 namespace bosquet::growth {
-namespace {
-
-/// Adds to `side` rows of as many cells, kFours times four at once: the last ones past the row's end get nothing.
-template <int kFours>
-inline void add_square(std::int32_t* row, std::size_t stride, int side, std::int32_t amount) {
-  const Int4 whole{amount, amount, amount, amount};
-  const Int4 end = side % 4 == 1 ? Int4{amount, 0, 0, 0} : Int4{amount, amount, amount, 0};
-  for (int k = 0; k < side; ++k, row += stride) {
-    for (int i = 0; i < kFours - 1; ++i) store4(row + 4 * i, load4(row + 4 * i) + whole);
-    store4(row + 4 * (kFours - 1), load4(row + 4 * (kFours - 1)) + end);
-  }
-}
-
-}  // namespace
 
 void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float strength, float falloff, int depth) {
   anchor_ = anchor, inverse_ = 1.0f / cell_m, depth_ = depth;
+  for (const IVec3 c : changed_) waiting_[index(c)] = 0;  // of a tree that was given up: all others settled
+  changed_.clear();
   amount_.fill(0);
   float amount = strength * kUnit;
   for (int q = 0; q <= depth; ++q, amount /= falloff) {
@@ -35,8 +21,8 @@ void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float
   cells_ = {high.x - low.x + 2 * side + 1, std::max(0, high.y) + 2, high.z - low.z + 2 * side + 1};
   const std::size_t cells =
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
-  sum_.assign(cells + kPastEnd, 0), waiting_.assign(cells, 0);
-  changed_.clear();
+  sum_.assign(cells + kPastPyramid, 0);
+  waiting_.resize(std::max(waiting_.size(), cells));
 }
 
 void ShadowGrid::make_room(IVec3 c) {
@@ -57,7 +43,8 @@ void ShadowGrid::make_room(IVec3 c) {
   first_ -= before;
   const std::size_t cells =
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
-  sum_.assign(cells + kPastEnd, 0), waiting_.assign(cells, 0);
+  sum_.assign(cells + kPastPyramid, 0);
+  waiting_.resize(std::max(waiting_.size(), cells));
   old_.reserve(sum_.capacity());  // the two change places each time
   const std::int32_t* from = old_.data();
   for (int j = 0; j < old_cells.y; ++j) {
@@ -95,30 +82,9 @@ std::size_t ShadowGrid::settle() {
 
 void ShadowGrid::add(IVec3 c, int times) {
   const auto stride = static_cast<std::size_t>(cells_.x);
-  for (int q = 0; q <= depth_ && c.y - q >= 0; ++q) {
-    std::int32_t* first = sum_.data() + index({c.x - q, c.y - q, c.z - q});
-    const std::int32_t amount = times * amount_[static_cast<std::size_t>(q)];
-    const int side = 2 * q + 1;
-    switch (q / 2) {
-      case 0:
-        add_square<1>(first, stride, side, amount);
-        break;
-      case 1:
-        add_square<2>(first, stride, side, amount);
-        break;
-      case 2:
-        add_square<3>(first, stride, side, amount);
-        break;
-      case 3:
-        add_square<4>(first, stride, side, amount);
-        break;
-      case 4:
-        add_square<5>(first, stride, side, amount);
-        break;
-      default:
-        add_square<6>(first, stride, side, amount);
-    }
-  }
+  const ShadowPyramid pyramid{std::min(depth_, c.y), stride, stride * static_cast<std::size_t>(cells_.z),
+                              amount_.data()};
+  add_pyramid(pyramid, sum_.data() + index(c), times);
 }
 
 }  // namespace bosquet::growth

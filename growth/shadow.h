@@ -7,15 +7,16 @@
 //           grows when wood leaves it. Cells stand at the anchor whatever the room, so the room changes no light
 // Decision  what casts and takes back is only counted by cell until settle(), once a season: most shoots of a season
 //           stand in few cells, and wood that is moved within its cell costs nothing. Light is as of the last settle()
-// Cost      (q_max + 1) (2 q_max + 1) (2 q_max + 3) / 3 additions for a cell whose count changed, in rows
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/vec.h"
 #include "growth/lanes.h"
+#include "growth/shadow_pyramid.h"
 
 namespace bosquet::growth {
 
@@ -37,13 +38,11 @@ class ShadowGrid {
     const Int4 at = lanes_of_cell(p);
     if (!all((at >= Int4{}) & (at < Int4{cells_.x, cells_.y, cells_.z, 1}))) return 1.0f;
     const IVec3 c{at[0], at[1], at[2]};
-    const std::int32_t s = sum_[index(c)] - amount_[0];
-    return s <= 0 ? 1.0f : s >= 65536 ? 0.0f : 1.0f - static_cast<float>(s) * (1.0f / kUnit);
+    const std::int32_t s = std::min(std::max(sum_[index(c)] - amount_[0], 0), static_cast<std::int32_t>(kUnit));
+    return 1.0f - static_cast<float>(s) * (1.0f / kUnit);
   }
 
  private:
-  static constexpr std::size_t kPastEnd = 4;  ///< the last row's end is written four at once
-
   Int4 lanes_of_cell(const Vec3& p) const {
     const Float4 q = (lanes(p) - lanes(anchor_)) * all4(inverse_);
     const Int4 c = whole(q);
@@ -68,9 +67,9 @@ class ShadowGrid {
   IVec3 first_{0};  ///< lowest cell, from the anchor
   IVec3 cells_{0};
   int depth_ = 1;
-  std::array<std::int32_t, 11> amount_{};
-  std::vector<std::int32_t> sum_, old_;  ///< and kPastEnd more
-  std::vector<std::int32_t> waiting_;    ///< change of the wood in a cell since the last settle
+  std::array<std::int32_t, kMostShadowDepth + 1> amount_{};
+  std::vector<std::int32_t> sum_, old_;  ///< and kPastPyramid more
+  std::vector<std::int32_t> waiting_;    ///< change of the wood in a cell since the last settle; 0 beyond the grid
   std::vector<IVec3> changed_;           ///< cells where it may not be 0
 };
 

@@ -8,6 +8,7 @@
 //           die in the open too). Each branch has its own share of that height, between 0.6 and 1.2
 #include <cstddef>
 
+#include "growth/light.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
@@ -65,16 +66,6 @@ void shed(Tree& tree) {
   for (std::size_t i = tree.listed; i < wood.size(); ++i) {
     if (fallen(wood.parent[i])) fall(tree, i);
   }
-  std::size_t living = 0;
-  for (const std::int32_t bud : tree.living) {
-    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    if (b.node >= 0 && !wood.alive(static_cast<std::size_t>(b.node))) {
-      b.state = BudState::dead;
-    } else {
-      tree.living[living++] = bud;
-    }
-  }
-  tree.living.resize(living);
 }
 
 }  // namespace bosquet::growth

@@ -14,6 +14,7 @@
 // Decision  a metamer that would leave the region grows straight to its free space instead; a trunk rises along the
 //           border, or back to its base's column; deflection turns no wood out of the region
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -171,9 +172,10 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   const float ground = buds[b].order == 0 ? 0.0f : tree.input->clear_stem_m;
   if (at.y + tree.length_m * heading.y < ground) return false;
   // A metamer that would leave the region turns to the free space in it; a trunk rises along the border, or back to it.
+  bool inside = true;
   const auto stays = [&](const Vec3& way) {
     heading = way;
-    return in_region(tree, at + tree.length_m * way);
+    return inside = in_region(tree, at + tree.length_m * way);
   };
   if (!stays(heading) && !stays(space) && buds[b].order == 0 &&
       !stays(normalised_or(habit.alpha * h + (1.0f - habit.alpha) * kUp, kUp)) && !stays(kUp)) {
@@ -182,7 +184,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   const Vec3 end = at + tree.length_m * heading;
 
   if (end.y < ground) return false;
-  if (buds[b].order > 0 && !in_region(tree, end) && !in_region(tree, at)) return false;
+  if (buds[b].order > 0 && !inside && !in_region(tree, at)) return false;
 
   const bool new_axis = buds[b].state == BudState::lateral;
   if (new_axis) start_axis(tree, b);
@@ -195,7 +197,7 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   wood.born.push_back(static_cast<std::uint16_t>(tree.season));
   wood.shed.push_back(kNever);
   wood.light.push_back(1.0f);
-  wood.vigor.push_back(buds[b].vigor);
+  wood.vigor.push_back(tree.vigor_of(buds[b]));
   tree.internodes.push_back(heading, below, buds[b].order, new_axis ? kLateral : kMain);
   if (!new_axis && below >= 0) {
     tree.internodes.next[static_cast<std::size_t>(below)] = internode;
@@ -265,28 +267,48 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
 }  // namespace
 
 bool choose_growing(Tree& tree) {
-  tree.growing.clear();
-  const float greatest = tree.greatest_vigor;
+  Buds& buds = tree.buds;
   const bool painted = !tree.input->markers.empty();  // then buds wait for the next stroke
   const int life = painted ? std::numeric_limits<int>::max() : tree.parameters->bud_life_seasons;
-  std::size_t living = 0;
+  const auto starve = [&](Bud& b) {
+    if (b.state == BudState::lateral) lose_lateral(tree, b.node);
+    b.state = BudState::dead;
+  };
+
+  // No branch on a bud's state or space, which could not be guessed.
+  tree.enabled.resize(tree.living.size());
+  std::size_t enabled = 0;
+  float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {
-    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    b.vigor = greatest > 0.0f ? std::min(1.0f, b.flow / greatest) : 0.0f;
+    Bud& b = buds[static_cast<std::size_t>(bud)];
+    const bool has_space = b.claims > 0;
+    b.flow = b.signal;
+    if (b.node >= 0) {
+      const Internode& node = tree.internodes[static_cast<std::size_t>(b.node)];
+      const std::array<float, 2> share{1.0f, b.signal};
+      const Way way = b.state == BudState::terminal ? kMain : kLateral;
+      b.flow = node.rate[way] * share[way];
+    }
+    greatest = std::max(greatest, has_space ? b.flow : 0.0f);
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
-    if (b.node < 0 && b.claims == 0) claim(tree, bud, b.direction);
-    const int n = b.claims > 0 ? static_cast<int>(b.vigor * longest_shoot(tree, b.order)) : 0;
-    if (n > 0) {
+    const bool may_grow = has_space | (b.node < 0);
+    tree.enabled[enabled] = bud, enabled += may_grow;
+    b.idle = static_cast<std::uint16_t>(b.idle + !may_grow);
+    if (b.idle >= life) starve(b);
+  }
+  tree.enabled.resize(enabled), tree.greatest_vigor = greatest;
+
+  tree.growing.clear();
+  for (const std::int32_t bud : tree.enabled) {
+    Bud& b = buds[static_cast<std::size_t>(bud)];
+    if (b.claims == 0) claim(tree, bud, b.direction);
+    if (const int n = static_cast<int>(tree.vigor_of(b) * longest_shoot(tree, b.order)); n > 0) {
       b.idle = 0;
       tree.growing.push_back({bud, n, 0, b.state == BudState::terminal});
     } else if (++b.idle >= life) {
-      if (b.state == BudState::lateral) lose_lateral(tree, b.node);
-      b.state = BudState::dead;
-      continue;
+      starve(b);
     }
-    tree.living[living++] = bud;
   }
-  tree.living.resize(living);
   return !tree.growing.empty();
 }
 
@@ -309,7 +331,7 @@ void deflect(Tree& tree) {
 
 bool extend(Tree& tree) {
   for (bool first = true; !tree.growing.empty(); first = false) {
-    if (!first) compete_for_space_again(tree);
+    if (!first) compete_again(tree);
     std::size_t kept = 0;
     for (GrowingBud g : tree.growing) {
       if (tree.buds[static_cast<std::size_t>(g.bud)].claims == 0 || !add_metamer(tree, g)) continue;

@@ -14,6 +14,7 @@
 
 #include "growth/directions.h"
 #include "growth/lanes.h"
+#include "growth/light.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
@@ -40,9 +41,9 @@ class RegionTest {
     if (!region_) return true;
     p = lid_ < p ? lid_ : p;
     const Float4 q = (p - low_) / edge_;
-    if (!all((q >= all4(0.0f)) & (q < end_))) return false;
-    const Int4 c = whole(q);
-    return region_->voxel({c[0], c[1], c[2]});
+    const bool inside = all((q >= all4(0.0f)) & (q < end_));
+    const Int4 c = whole(inside ? q : all4(0.0f));
+    return inside & region_->voxel({c[0], c[1], c[2]});
   }
 
  private:
@@ -54,7 +55,7 @@ class RegionTest {
 std::size_t drop(Tree& tree, std::int32_t bud, std::size_t count) {
   Bud& b = tree.buds[static_cast<std::size_t>(bud)];
   b.claims = 0;
-  const int markers = 1 + static_cast<int>(tree.parameters->marker_rate * b.vigor);
+  const int markers = 1 + static_cast<int>(tree.parameters->marker_rate * tree.vigor_of(b));
   const Basis basis =
       tree.parameters->planar
           ? Basis{normalised_or({b.direction.y, -b.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
@@ -95,42 +96,44 @@ void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, s
   }
 }
 
-void drop_and_claim(Tree& tree, std::span<const std::int32_t> dropping) {
-  const RegionTest in_its_region(tree);
-  DroppedMarkers& d = tree.dropped;
-  // First all markers are made, then they are looked up, then the few that stand are claimed: no step waits for another.
-  std::size_t count = 0;
-  d.make_room(dropping.size() * (1 + static_cast<std::size_t>(tree.parameters->marker_rate)) +
-              PerceptionSamples::kMost);
-  for (std::size_t n = 0; n < dropping.size(); ++n) {
-    const std::int32_t bud = dropping[n];
-    if (n + kFetchAhead < dropping.size())
-      __builtin_prefetch(&tree.buds[static_cast<std::size_t>(dropping[n + kFetchAhead])]);
-    const std::size_t first = count;
-    count = drop(tree, bud, count);
-    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, count);
-  }
-  tree.work.markers_tested += count;
+/// Drops the markers of some buds, from `count` on; returns their end. The others' are not there any more.
+std::size_t drop_all(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, std::size_t count) {
+  const std::size_t end = drop(tree, bud, count);
+  const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+  if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, count, end);
+  return end;
+}
 
+void make_room(Tree& tree, std::size_t buds) {
+  tree.dropped.make_room(buds * (1 + static_cast<std::size_t>(tree.parameters->marker_rate)) +
+                         PerceptionSamples::kMost);
+}
+
+/// Looks the markers up, then claims the few that stand: no step waits for another.
+void claim_dropped(Tree& tree, const RegionTest& in_its_region, std::size_t count) {
+  DroppedMarkers& d = tree.dropped;
+  tree.work.markers_tested += count;
   std::size_t free = 0;
   for (std::size_t i = 0; i < count; ++i) {
     d.free[free] = static_cast<std::int32_t>(i);
     free += tree.occupancy.state(d.cell[i]) == 0;
   }
 
-  tree.competing.clear();
-  std::size_t standing = 0;
+  // Lists are written ahead and grow by 0 or 1: which it is could not be guessed.
+  tree.competing.resize(free);
+  std::size_t standing = 0, competing = 0;
+  std::int32_t last = kNone;
   for (std::size_t k = 0; k < free; ++k) {
     const auto i = static_cast<std::size_t>(d.free[k]);
-    const Bud& b = tree.buds[static_cast<std::size_t>(d.bud[i])];
+    const std::int32_t bud = d.bud[i];
+    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
     const float ground = b.order == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
-    if (d.y[i] <= ground || !in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f})) continue;
-    d.free[standing++] = d.free[k];
-    if (tree.competing.empty() || tree.competing.back().bud != d.bud[i]) {
-      tree.competing.push_back({b.at, d.bud[i], b.direction});
-    }
+    const bool stands = (d.y[i] > ground) & in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f});
+    d.free[standing] = d.free[k], standing += stands;
+    tree.competing[competing] = {b.at, bud, b.direction}, competing += stands & (bud != last);
+    last = stands ? bud : last;
   }
+  tree.competing.resize(competing);
   tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
   for (std::size_t k = 0; k < standing; ++k) {
     const auto i = static_cast<std::size_t>(d.free[k]);
@@ -143,16 +146,39 @@ void drop_and_claim(Tree& tree, std::span<const std::int32_t> dropping) {
 
 }  // namespace
 
-void compete_for_space(Tree& tree) {
-  if (!tree.input->markers.empty()) return claim_painted(tree, tree.living);
-  drop_and_claim(tree, tree.living);
+void sense(Tree& tree) {
+  tree.work.shadow_cells += tree.shadow.settle();
+  const bool painted = !tree.input->markers.empty();
+  const RegionTest in_its_region(tree);
+  make_room(tree, tree.living.size());
+  std::size_t living = 0, markers = 0;
+  for (std::size_t n = 0; n < tree.living.size(); ++n) {
+    const std::int32_t bud = tree.living[n];
+    if (n + kFetchAhead < tree.living.size())
+      __builtin_prefetch(&tree.buds[static_cast<std::size_t>(tree.living[n + kFetchAhead])]);
+    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    if (b.state == BudState::dead || (b.node >= 0 && !tree.wood.alive(static_cast<std::size_t>(b.node)))) {
+      b.state = BudState::dead;
+      continue;
+    }
+    tree.living[living++] = bud;
+    sense_light(tree, b);
+    if (!painted) markers = drop_all(tree, in_its_region, bud, markers);
+  }
+  tree.living.resize(living);
+  tree.work.bud_visits += living;
+  painted ? claim_painted(tree, tree.living) : claim_dropped(tree, in_its_region, markers);
 }
 
-void compete_for_space_again(Tree& tree) {
+void compete_again(Tree& tree) {
   tree.extending.clear();
   for (const GrowingBud& g : tree.growing) tree.extending.push_back(g.bud);
   if (!tree.input->markers.empty()) return claim_painted(tree, tree.extending);
-  drop_and_claim(tree, tree.extending);
+  const RegionTest in_its_region(tree);
+  make_room(tree, tree.extending.size());
+  std::size_t markers = 0;
+  for (const std::int32_t bud : tree.extending) markers = drop_all(tree, in_its_region, bud, markers);
+  claim_dropped(tree, in_its_region, markers);
 }
 
 }  // namespace bosquet::growth

@@ -6,6 +6,7 @@
 
 #include "core/scalar.h"
 #include "growth/directions.h"
+#include "growth/light.h"
 
 namespace bosquet::growth {
 namespace {
@@ -95,7 +96,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
   tree.standing.clear(), tree.thinned.clear(), tree.failing.clear();
-  tree.listed = 0;
+  tree.listed = 0, tree.greatest_vigor = 0.0f;
 
   // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.
   const Box3 room = expected_room(input, input.region, tree.reach_m);
@@ -138,8 +139,7 @@ void grow_season(Tree& tree) {
   assert(!tree.finished);
   const std::size_t before = tree.wood.size();
   update_habits(tree);
-  sense_light(tree);
-  compete_for_space(tree);
+  sense(tree);
   share_vigor(tree);
   bool tall = false;
   if (choose_growing(tree)) {

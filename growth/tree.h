@@ -17,6 +17,7 @@
 #include "core/vec.h"
 #include "growth/grow.h"
 #include "growth/habit.h"
+#include "growth/lanes.h"
 #include "growth/markers.h"
 #include "growth/occupancy.h"
 #include "growth/shadow.h"
@@ -25,7 +26,6 @@
 namespace bosquet::growth {
 
 inline constexpr std::int32_t kNone = -1;
-inline constexpr float kLeastLight = 1.0f / 256.0f;  ///< so that no bud's signal is zero
 
 /// Ways on from an internode's upper end.
 enum Way : std::uint8_t { kMain, kLateral };
@@ -73,13 +73,11 @@ struct alignas(64) Bud {
   std::int32_t node = kNone;  ///< internode at whose upper end it stands, kNone at the base
   float factor = 1.0f;        ///< gravimorphism and acrotony, 1 for terminal buds
   float sky = 1.0f;           ///< transmittance of other trees at the bud
-  float vigor = 0.0f;         ///< v / v_max of the last season
   std::uint16_t idle = 0;     ///< seasons without space or light
   std::uint8_t order = 0;     ///< of the axis that it makes or continues
   BudState state = BudState::lateral;
-  // This season.
-  std::int32_t claims = 0;           ///< how many markers it got
-  float signal = 0.0f, flow = 0.0f;  ///< Q, v
+  std::int32_t claims = 0;           ///< how many markers it got this season
+  float signal = 0.0f, flow = 0.0f;  ///< Q, v as last shared
 };
 
 struct Buds {
@@ -146,12 +144,13 @@ struct Tree {
   Skeleton wood;  ///< while it grows vigor is v as last shared, of this season's wood its bud's v / v_max
   Internodes internodes;
   Buds buds;
-  std::vector<std::int32_t> living;    ///< buds, in birth order
+  std::vector<std::int32_t> living;    ///< buds, in birth order; those that die leave it when light is sensed next
   std::vector<std::int32_t> tip_of;    ///< terminal bud by axis
   std::vector<std::int32_t> standing;  ///< living internodes before this season's, in birth order, without bare ones
   std::vector<std::int32_t> thinned;   ///< internodes that may have become bare
   std::size_t listed = 0;              ///< internodes born before this season
   std::vector<std::int32_t> failing;   ///< of these, where branches begin that have too little vigor
+  std::vector<std::int32_t> enabled;   ///< buds with space this season
   std::vector<GrowingBud> growing;
   std::vector<std::int32_t> extending;  ///< buds of these
   float greatest_vigor = 0;             ///< v_max
@@ -171,18 +170,14 @@ struct Tree {
   std::array<int, kOrders> light_table{};  ///< by order: where its own begins in light_response
   GrowthWork work;
 
+  /// v / v_max of the season that v was last shared in.
+  float vigor_of(const Bud& b) const { return greatest_vigor > 0.0f ? smaller(b.flow / greatest_vigor, 1.0f) : 0.0f; }
   /// From v to v / v_max of this season, for an internode that was there before.
   void scale_vigor(std::size_t i) { wood.vigor[i] = greatest_vigor > 0.0f ? wood.vigor[i] / greatest_vigor : 0.0f; }
   const Habit& habit(std::uint8_t order) const {
     return habits[order < kOrders ? order : static_cast<std::size_t>(kOrders - 1)];
   }
 };
-
-/// Light that reaches p: what the tree's own wood leaves of it (as of this season's start) and other trees let through.
-inline float light_at(const Tree& tree, const Vec3& p) {
-  const float sky = tree.input->light ? tree.input->light->at(p) : 1.0f;
-  return std::max(kLeastLight, sky * tree.shadow.exposure(p));
-}
 
 /// May a marker stand here for all that the region says? It has no lid: above the tree's height its last layer counts,
 /// for growth ends there anyway, and a tip that sees no room just below would only be late.
@@ -202,29 +197,25 @@ void grow_season(Tree& tree);
 /// Reads the numbers in force at the tree's height.
 void update_habits(Tree& tree);
 
-/// Tables of L^kappa for the distinct kappas in force.
-void tabulate_light_response(Tree& tree);
-
-/// Light at every living bud and the signal Q = b * L^kappa that it tells its node (Longay 2014, eq. 4.7).
-void sense_light(Tree& tree);
-
-/// Markers dropped by the living buds, and who got them (space.cpp).
-void compete_for_space(Tree& tree);
-void compete_for_space_again(Tree& tree);
+/// Buds that died or fell leave the living ones; the others' light and the signal Q = b * L^kappa that each tells its node
+/// (Longay 2014, eq. 4.7), the markers they drop, and who gets them (space.cpp).
+void sense(Tree& tree);
+/// Markers dropped by the buds that still grow, and who gets them.
+void compete_again(Tree& tree);
 /// The same with painted markers (painted.cpp).
 void claim_painted(Tree& tree, std::span<const std::int32_t> buds);
 /// One more marker, this way, for a bud.
 inline void claim(Tree& tree, std::int32_t bud, const Vec3& way) {
   const auto b = static_cast<std::size_t>(bud);
   Vec3& claimed = tree.buds.claimed[b];
-  claimed = tree.buds[b].claims++ == 0 ? way : claimed + way;
+  claimed = claimed * static_cast<float>(tree.buds[b].claims++ != 0) + way;  // no branch
 }
 
-/// Signal down, vigor up (vigor.cpp): fills flow of the living buds, finds v_max of the enabled ones and the branches
-/// that fail.
+/// Signal down, vigor up (vigor.cpp): finds the branches that fail.
 void share_vigor(Tree& tree);
 
-/// Fate, deflection and extension (shoots.cpp): who grows; buds that waited too long die. Returns true when some do.
+/// Fate, deflection and extension (shoots.cpp): who grows, by its share of v_max, the greatest v of a bud with space; buds
+/// that waited too long die. Returns true when some grow.
 bool choose_growing(Tree& tree);
 void deflect(Tree& tree);
 /// Returns true when an internode passed the final height.

@@ -475,9 +475,9 @@ TEST(Grow, VigorLeavingAForkEqualsVigorArriving) {
   Tree tree;
   plant(tree, input);
   while (tree.season < 12) grow_season(tree);
-  sense_light(tree);
-  compete_for_space(tree);
+  sense(tree);
   share_vigor(tree);
+  choose_growing(tree);
   fill_in_vigor(tree);
   std::vector<double> leaving(tree.wood.size(), 0.0);  // through the ways that stand on a node
   for (const std::int32_t bud : tree.living) {

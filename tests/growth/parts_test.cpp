@@ -14,6 +14,7 @@
 #include "growth/measure.h"
 #include "growth/occupancy.h"
 #include "growth/shadow.h"
+#include "growth/shadow_pyramid.h"
 #include "sample_trees.h"
 
 namespace bosquet::growth {
@@ -59,6 +60,32 @@ TEST(Shadow, OneInternodeCastsAPyramid) {
       EXPECT_NEAR(grid.exposure(p), std::min(1.0f, 1.0f - s + 0.5f), 1e-4f) << q << " " << i;
     }
   }
+}
+
+RC_GTEST_PROP(Shadow, APyramidIsTheSameHoweverManyNumbersAreAddedAtOnce, ()) {
+  const int last = *rc::gen::inRange(0, kMostShadowDepth + 1);
+  const auto width = static_cast<std::size_t>(2 * last + 3 + *rc::gen::inRange(0, 5));
+  const std::vector<std::int32_t> amount =
+      *rc::gen::container<std::vector<std::int32_t>>(kMostShadowDepth + 1, rc::gen::inRange<std::int32_t>(1, 1 << 16));
+  const ShadowPyramid pyramid{last, width, width * width, amount.data()};
+  std::vector<std::int32_t> wide(width * width * static_cast<std::size_t>(last + 1) + kPastPyramid), plain, slow;
+  plain = slow = wide;
+  const auto cell = [&](std::vector<std::int32_t>& sums, int i, int j, int k) {
+    const auto middle = static_cast<int>(width / 2);
+    return sums.data() + (static_cast<std::size_t>(last - j) * width + static_cast<std::size_t>(middle + k)) * width +
+           static_cast<std::size_t>(middle + i);
+  };
+  for (const int times : {2, -3}) {
+    add_pyramid(pyramid, cell(wide, 0, 0, 0), times);
+    add_pyramid_plainly(pyramid, cell(plain, 0, 0, 0), times);
+    for (int q = 0; q <= last; ++q) {
+      for (int k = -q; k <= q; ++k) {
+        for (int i = -q; i <= q; ++i) *cell(slow, i, q, k) += times * amount[static_cast<std::size_t>(q)];
+      }
+    }
+  }
+  RC_ASSERT(wide == slow);
+  RC_ASSERT(plain == slow);
 }
 
 TEST(Shadow, SecondInternodeInACellIsShadedByTheFirst) {
@@ -199,8 +226,9 @@ RC_GTEST_PROP(Markers, TheNearestPerceivingBudWins, ()) {
   std::vector<Competitor> buds;
   for (int i = *rc::gen::inRange(1, 60); i > 0; --i) {
     const Vec3 direction = normalised_or({coordinate(100), coordinate(100), coordinate(100)}, kUp);
-    buds.push_back(
-        {{coordinate(200), coordinate(200), coordinate(200)}, static_cast<std::int32_t>(buds.size()), direction});
+    const bool beside = !buds.empty() && *rc::gen::inRange(0, 3) == 0;  // buds of a node stand at one place
+    const Vec3 at = beside ? buds.back().at : Vec3{coordinate(200), coordinate(200), coordinate(200)};
+    buds.push_back({at, static_cast<std::int32_t>(buds.size()), direction});
   }
   CompetitorIndex index;
   index.build(buds, reach, cos);
@@ -214,6 +242,7 @@ RC_GTEST_PROP(Markers, TheNearestPerceivingBudWins, ()) {
       if (square < best2 && glm::dot(to, b.direction) >= cos * std::sqrt(square)) best2 = square, best = b.bud;
     }
     RC_ASSERT(index.nearest(p, reach, -1) == best);
+    RC_ASSERT(index.nearest_plainly(p, reach, -1) == best);
   }
 }
 
