@@ -1,5 +1,7 @@
 #include "growth/light.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/scalar.h"
@@ -7,6 +9,7 @@
 namespace bosquet::growth {
 namespace {
 
+constexpr int kLightSteps = 512;         ///< L^kappa is read from a table by linear interpolation
 constexpr std::size_t kMostTables = 64;  ///< kept, so that trees of one species and phase share theirs
 
 }  // namespace
@@ -27,6 +30,26 @@ void tabulate_light_response(Tree& tree) {
                                       : pow(static_cast<float>(i) / kLightSteps, kappa));
     }
     table.push_back(1.0f);
+  }
+}
+
+void sense_light(Tree& tree) {
+  const ShadowGrid::Reader shadow = tree.shadow.reader();
+  std::array<const float*, kOrders> response;
+  for (std::size_t order = 0; order < kOrders; ++order) {
+    response[order] = tree.light_response.data() + tree.light_table[order];
+  }
+  Bud* const buds = tree.buds.each.data();
+  Internode* const internodes = tree.internodes.each.data();
+  for (const std::int32_t bud : tree.living) {
+    Bud& b = buds[bud];
+    const float light = larger(b.sky * shadow.exposure(b.at), kLeastLight);
+    const float step = light * kLightSteps;
+    const int i = static_cast<int>(step);
+    const float* at = response[std::min<std::size_t>(b.order, kOrders - 1)] + i;
+    b.signal = b.factor * (at[0] + (at[1] - at[0]) * (step - static_cast<float>(i)));
+    if (b.node < 0) continue;  // a stem's first bud: nothing stands below it
+    internodes[b.node].gathered[b.state == BudState::terminal ? kMainSignal : kLateralSignal] += b.signal;
   }
 }
 

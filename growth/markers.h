@@ -27,10 +27,14 @@ class PerceptionSamples {
   /// `depth` is d / r. The points of the last volumes asked for are kept.
   void reset(float depth, float cos_half_angle, bool planar);
 
-  /// Samples n .. n + 3, n < kCount + kMost - 4.
-  Float4 x(std::uint32_t n) const { return load4(&x_[n]); }
-  Float4 y(std::uint32_t n) const { return load4(&y_[n]); }
-  Float4 z(std::uint32_t n) const { return load4(&z_[n]); }
+  struct Reader {
+    const float *xs, *ys, *zs;
+    /// Samples n .. n + 3, n < kCount + kMost - 4.
+    Float4 x(std::uint32_t n) const { return load4(xs + n); }
+    Float4 y(std::uint32_t n) const { return load4(ys + n); }
+    Float4 z(std::uint32_t n) const { return load4(zs + n); }
+  };
+  Reader reader() const { return {x_, y_, z_}; }
 
  private:
   struct Points {

@@ -7,7 +7,7 @@
 namespace bosquet::growth {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 8;
+constexpr std::size_t kPairsAtOnce = 4;
 
 using Byte16 = std::uint8_t __attribute__((vector_size(16)));
 
@@ -18,17 +18,36 @@ VoxelRange touched(float low, float high, float origin, float edge, int count) {
           static_cast<int>(std::clamp(to, -1.0f, static_cast<float>(count - 1)))};
 }
 
-/// One more or one less in the cells of each row; closed ones stay so.
+/// Sums that end at 255.
+inline Byte16 up_to_closed(Byte16 cells, Byte16 counted) {
+  static_assert(Occupancy::kClosed == 255);
+#ifdef __SSE2__
+  using Char16 = char __attribute__((vector_size(16)));
+  return reinterpret_cast<Byte16>(
+      __builtin_ia32_paddusb128(reinterpret_cast<Char16>(cells), reinterpret_cast<Char16>(counted)));
+#else
+  return cells + (counted & reinterpret_cast<Byte16>(cells != Occupancy::kClosed));
+#endif
+}
+
+/// One more or one less in the cells of each pair of rows; closed ones stay so.
 template <int kChange>
-void count_rows(std::uint8_t* at, const OccupiedRow* row, const std::ptrdiff_t* offset, std::size_t rows) {
-  for (std::size_t n = 0; n < rows; n += kRowsAtOnce) {
-#pragma GCC unroll 8
-    for (std::size_t m = n; m < n + kRowsAtOnce; ++m) {
+void count_rows(std::uint8_t* at, const OccupiedRows* pair, const RowOffsets* offsets, std::size_t pairs) {
+  for (std::size_t n = 0; n < pairs; n += kPairsAtOnce) {
+#pragma GCC unroll 4
+    for (std::size_t m = n; m < n + kPairsAtOnce; ++m) {
+      std::uint8_t *const first = at + offsets[m][0], *const second = at + offsets[m][1];
+      std::array<std::uint64_t, 2> words;
+      std::memcpy(&words[0], first, 8), std::memcpy(&words[1], second, 8);
       Byte16 cells, counted;
-      std::memcpy(&cells, at + offset[m], sizeof cells), std::memcpy(&counted, &row[m], sizeof counted);
-      counted &= reinterpret_cast<Byte16>(cells != Occupancy::kClosed);
-      cells = kChange > 0 ? cells + counted : cells - counted;
-      std::memcpy(at + offset[m], &cells, sizeof cells);
+      std::memcpy(&cells, &words, 16), std::memcpy(&counted, &pair[m], 16);
+      if constexpr (kChange > 0) {
+        cells = up_to_closed(cells, counted);
+      } else {
+        cells -= counted & reinterpret_cast<Byte16>(cells != Occupancy::kClosed);
+      }
+      std::memcpy(&words, &cells, 16);
+      std::memcpy(first, &words[0], 8), std::memcpy(second, &words[1], 8);
     }
   }
 }
@@ -54,34 +73,39 @@ void Occupancy::make_spheres() {
   for (std::size_t eighth = 0; eighth < 8; ++eighth) {
     const auto from = [&](std::size_t axis) { return eighth >> axis & 1 ? 0.25f : -0.25f; };
     Sphere& sphere = spheres_[eighth];
-    sphere.rows.clear(), sphere.at.clear();
+    sphere.pairs.clear(), sphere.at.clear();
+    const auto add_row = [&](const std::array<std::uint8_t, kRow>& cells, IVec2 at) {
+      if (sphere.at.size() % 2 == 0) sphere.pairs.push_back({});
+      std::copy(cells.begin(), cells.end(), sphere.pairs.back().cells.begin() + sphere.at.size() % 2 * kRow);
+      sphere.at.push_back(at);
+    };
     for (int j = -kBefore; j <= kBefore; ++j) {
       for (int k = -kBefore; k <= kBefore; ++k) {
-        OccupiedRow row{};
+        std::array<std::uint8_t, kRow> row{};
         bool some = false;
         for (int i = -kBefore; i <= kBefore; ++i) {
           const Vec3 to = (Vec3(i, j, k) - Vec3{from(0), from(1), from(2)}) * cell_m_;
           const bool within = (i == 0 && j == 0 && k == 0) || glm::dot(to, to) < radius_m_ * radius_m_;
-          row.cells[static_cast<std::size_t>(i + kBefore)] = within;
+          row[static_cast<std::size_t>(i + kBefore)] = within;
           some = some || within;
         }
-        if (some) sphere.rows.push_back(row), sphere.at.push_back({j, k});
+        if (some) add_row(row, {j, k});
       }
     }
-    while (sphere.rows.size() % kRowsAtOnce != 0) sphere.rows.push_back({}), sphere.at.push_back({0, 0});
+    // Empty rows make the pairs up to a whole number; they stand apart from the last row, with which one may be paired.
+    while (sphere.at.size() % (2 * kPairsAtOnce) != 0) add_row({}, {0, 0});
   }
 }
 
 void Occupancy::lay_out(IVec3 first, IVec3 cells) {
   first_ = first, cells_ = cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int32_t f = first[axis];
-    first4_[axis] = Int4{f, f, f, f};
-  }
   for (Sphere& sphere : spheres_) {
     sphere.offsets.clear();
-    for (const IVec2 at : sphere.at) {
-      sphere.offsets.push_back((static_cast<std::ptrdiff_t>(at.x) * cells.z + at.y) * cells.x - kBefore);
+    const auto offset = [&](IVec2 at) {
+      return (static_cast<std::ptrdiff_t>(at.x) * cells.z + at.y) * cells.x - kBefore;
+    };
+    for (std::size_t n = 0; n < sphere.at.size(); n += 2) {
+      sphere.offsets.push_back({offset(sphere.at[n]), offset(sphere.at[n + 1])});
     }
   }
 }
@@ -189,7 +213,7 @@ void Occupancy::change(IVec3 half_cell, bool more) {
       static_cast<std::size_t>((half_cell.x & 1) | (half_cell.y & 1) << 1 | (half_cell.z & 1) << 2);
   const Sphere& sphere = spheres_[eighth];
   std::uint8_t* const at = taken_.data() + index(c - first_);
-  (more ? count_rows<1> : count_rows<-1>)(at, sphere.rows.data(), sphere.offsets.data(), sphere.rows.size());
+  (more ? count_rows<1> : count_rows<-1>)(at, sphere.pairs.data(), sphere.offsets.data(), sphere.pairs.size());
 }
 
 void Occupancy::move(const Vec3& from, const Vec3& to) {

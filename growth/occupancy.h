@@ -6,7 +6,7 @@
 //           in the middle of its eighth of a cell. Cells stand at the tree's base whatever the room, so the room
 //           changes no tree
 // Layout    one byte a cell: how many nodes occupy it, or kClosed: below ground, or no voxel of the crown region
-//           touches it. A cell that 255 nodes occupy is closed for good. A node's sphere is added in rows of 16 cells;
+//           touches it. A cell that 255 nodes occupy is closed for good. A node's sphere is added in rows of 8 cells;
 //           around wood there is always room enough for what its buds perceive; the grid grows when wood leaves it
 #pragma once
 
@@ -26,10 +26,12 @@ struct VoxelRange {
   bool operator==(const VoxelRange&) const = default;
 };
 
-/// Cells of a sphere: 1 where occupied.
-struct alignas(16) OccupiedRow {
-  std::array<std::uint8_t, 16> cells;
+/// Two rows of a sphere's cells: 1 where occupied.
+struct alignas(16) OccupiedRows {
+  std::array<std::uint8_t, 16> cells{};
 };
+/// Where they begin, from the cell of the sphere's node.
+using RowOffsets = std::array<std::ptrdiff_t, 2>;
 
 class Occupancy {
  public:
@@ -47,12 +49,25 @@ class Occupancy {
 
   float cell_m() const { return cell_m_; }
 
-  /// Four places within reach of wood: their cells.
-  Int4 cells_of(Float4 x, Float4 y, Float4 z) const {
-    const Int4 i = whole(x * all4(inverse_) + all4(kOrigin)) - first4_[0];
-    const Int4 j = whole(y * all4(inverse_) + all4(kOrigin)) - first4_[1];
-    const Int4 k = whole(z * all4(inverse_) + all4(kOrigin)) - first4_[2];
-    return (j * cells_.z + k) * cells_.x + i;
+  /// Finds the cells of places within reach of wood, four at once; until wood is added.
+  struct CellFinder {
+    Float4 inverse, origin;
+    Int4 first[3];
+    Int4 width, depth;
+    Int4 operator()(Float4 x, Float4 y, Float4 z) const {
+      const Int4 i = whole(x * inverse + origin) - first[0];
+      const Int4 j = whole(y * inverse + origin) - first[1];
+      const Int4 k = whole(z * inverse + origin) - first[2];
+      return (j * depth + k) * width + i;
+    }
+  };
+  CellFinder cell_finder() const {
+    const auto four = [](std::int32_t n) { return Int4{n, n, n, n}; };
+    return {all4(inverse_),
+            all4(kOrigin),
+            {four(first_.x), four(first_.y), four(first_.z)},
+            four(cells_.x),
+            four(cells_.z)};
   }
   /// 0: free; kClosed; else the number of nodes that occupy it.
   std::uint8_t state(std::int32_t cell) const { return taken_[static_cast<std::size_t>(cell)]; }
@@ -62,12 +77,12 @@ class Occupancy {
 
  private:
   static constexpr float kOrigin = 32768.0f;  ///< in cells, so that numbers are positive and the same in every room
-  static constexpr int kRow = 16;
-  static constexpr int kBefore = 4;  ///< cells of a sphere's row before its node's
+  static constexpr int kRow = 8;
+  static constexpr int kBefore = 3;  ///< cells of a sphere's row before its node's, and layers and rows on each side
   struct Sphere {
-    std::vector<OccupiedRow> rows;
-    std::vector<IVec2> at;                ///< of each row, j and k from the node's cell
-    std::vector<std::ptrdiff_t> offsets;  ///< the same in the present grid
+    std::vector<OccupiedRows> pairs;
+    std::vector<IVec2> at;            ///< of each row, j and k from the node's cell
+    std::vector<RowOffsets> offsets;  ///< the same in the present grid
   };
 
   IVec3 half_cell(const Vec3& p) const {
@@ -87,9 +102,8 @@ class Occupancy {
 
   float radius_m_ = 0.0f, cell_m_ = 1.0f, inverse_ = 1.0f, lid_m_ = 0.0f;
   const crowns::CrownRegion* region_ = nullptr;
-  int margin_ = 0;    ///< cells around wood that must exist
-  IVec3 first_{0};    ///< lowest cell
-  Int4 first4_[3]{};  ///< its coordinates, each four times
+  int margin_ = 0;  ///< cells around wood that must exist
+  IVec3 first_{0};  ///< lowest cell
   IVec3 cells_{0};
   std::vector<std::uint8_t> taken_, old_;  ///< and kRow more
   std::array<Sphere, 8> spheres_;          ///< by the node's eighth of its cell

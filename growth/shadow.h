@@ -33,24 +33,45 @@ class ShadowGrid {
   /// Brings the sums up to date; returns how many cells' shadows changed.
   std::size_t settle();
 
-  /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
-  float exposure(const Vec3& p) const {
-    const Int4 at = lanes_of_cell(p);
-    if (!all((at >= Int4{}) & (at < Int4{cells_.x, cells_.y, cells_.z, 1}))) return 1.0f;
-    const IVec3 c{at[0], at[1], at[2]};
-    const std::int32_t s = std::min(std::max(sum_[index(c)] - amount_[0], 0), static_cast<std::int32_t>(kUnit));
-    return 1.0f - static_cast<float>(s) * (1.0f / kUnit);
+  /// Reads light at many places, its numbers beside it; until wood casts or settles.
+  struct Reader {
+    Float4 anchor, inverse;
+    Int4 first, cells;
+    std::ptrdiff_t row, layer;  ///< numbers from one row and layer to the next
+    std::int32_t own;           ///< what an internode takes from its own cell
+    const std::int32_t* sum;
+
+    Int4 cell(const Vec3& p) const {
+      const Float4 q = (lanes(p) - anchor) * inverse;
+      const Int4 c = whole(q);
+      // Towards zero is one too high below zero: the comparison is -1 there.
+      return c + (__builtin_convertvector(c, Float4) > q) - first;
+    }
+    float exposure(const Vec3& p) const {
+      const Int4 c = cell(p);
+      if (!all((c >= Int4{}) & (c < cells))) return 1.0f;
+      const std::int32_t s = sum[c[1] * layer + c[2] * row + c[0]] - own;
+      return 1.0f - static_cast<float>(std::min(std::max(s, 0), static_cast<std::int32_t>(kUnit))) * (1.0f / kUnit);
+    }
+  };
+  Reader reader() const {
+    const auto row = static_cast<std::ptrdiff_t>(cells_.x);
+    return {lanes(anchor_),
+            all4(inverse_),
+            Int4{first_.x, first_.y, first_.z, 0},
+            Int4{cells_.x, cells_.y, cells_.z, 1},
+            row,
+            row * cells_.z,
+            amount_[0],
+            sum_.data()};
   }
 
+  /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
+  float exposure(const Vec3& p) const { return reader().exposure(p); }
+
  private:
-  Int4 lanes_of_cell(const Vec3& p) const {
-    const Float4 q = (lanes(p) - lanes(anchor_)) * all4(inverse_);
-    const Int4 c = whole(q);
-    // Towards zero is one too high below zero: the comparison is -1 there.
-    return c + (__builtin_convertvector(c, Float4) > q) - Int4{first_.x, first_.y, first_.z, 0};
-  }
   IVec3 cell(const Vec3& p) const {
-    const Int4 c = lanes_of_cell(p);
+    const Int4 c = reader().cell(p);
     return {c[0], c[1], c[2]};
   }
   std::size_t index(IVec3 c) const {

@@ -23,8 +23,6 @@ namespace {
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
 
-constexpr std::size_t kFetchAhead = 6;  ///< buds
-
 /// in_region() for many places, ready for use.
 class RegionTest {
  public:
@@ -51,32 +49,60 @@ class RegionTest {
   Float4 low_{}, edge_{}, end_{}, lid_{};
 };
 
-/// Drops the markers of a bud, after `count` others; returns how many there are then.
-std::size_t drop(Tree& tree, std::int32_t bud, std::size_t count) {
-  Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-  b.claims = 0;
-  const int markers = 1 + static_cast<int>(tree.parameters->marker_rate * tree.vigor_of(b));
-  const Basis basis =
-      tree.parameters->planar
-          ? Basis{normalised_or({b.direction.y, -b.direction.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
-          : basis_around(b.direction);
-  const Vec3 to_x = tree.occupied_m * basis.x, to_y = tree.occupied_m * basis.y, to_z = tree.occupied_m * b.direction;
-  const auto first = static_cast<std::uint32_t>(tree.random.bits()) % PerceptionSamples::kCount;
-  DroppedMarkers& d = tree.dropped;
-  for (int m = 0; m < markers; m += 4) {
-    // Four at once; what is too many of them the next ones overwrite.
-    const auto n = first + static_cast<std::uint32_t>(m);
-    const Float4 sx = tree.samples.x(n), sy = tree.samples.y(n), sz = tree.samples.z(n);
-    const Float4 x = all4(b.at.x) + (sx * all4(to_x.x) + sy * all4(to_y.x) + sz * all4(to_z.x));
-    const Float4 y = all4(b.at.y) + (sx * all4(to_x.y) + sy * all4(to_y.y) + sz * all4(to_z.y));
-    const Float4 z = all4(b.at.z) + (sx * all4(to_x.z) + sy * all4(to_y.z) + sz * all4(to_z.z));
-    store4(&d.x[count], x), store4(&d.y[count], y), store4(&d.z[count], z);
-    store4(&d.cell[count], tree.occupancy.cells_of(x, y, z));
-    store4(&d.bud[count], Int4{bud, bud, bud, bud});
-    count += static_cast<std::size_t>(std::min(4, markers - m));
+/// Makes the markers of one bud after another; what they are made of stands beside each other.
+class Dropping {
+ public:
+  Dropping(Tree& tree, std::size_t buds)
+      : buds_(tree.buds.each.data()),
+        samples_(tree.samples.reader()),
+        cell_of_(tree.occupancy.cell_finder()),
+        random_(tree.random),
+        occupied_m_(tree.occupied_m),
+        rate_(tree.parameters->marker_rate),
+        greatest_(tree.greatest_vigor),
+        planar_(tree.parameters->planar) {
+    DroppedMarkers& d = tree.dropped;
+    d.make_room(buds * (1 + static_cast<std::size_t>(rate_)) + PerceptionSamples::kMost);
+    x_ = d.x.data(), y_ = d.y.data(), z_ = d.z.data(), cell_ = d.cell.data(), bud_ = d.bud.data();
   }
-  return count;
-}
+
+  void drop(std::int32_t bud) {
+    Bud& b = buds_[bud];
+    b.claims = 0;
+    const int markers = 1 + static_cast<int>(rate_ * share_of(b.flow, greatest_));
+    const Vec3 at = b.at, along = b.direction;
+    const Basis basis =
+        planar_ ? Basis{normalised_or({along.y, -along.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
+                : basis_around(along);
+    const Vec3 to_x = occupied_m_ * basis.x, to_y = occupied_m_ * basis.y, to_z = occupied_m_ * along;
+    const auto first = static_cast<std::uint32_t>(random_.bits()) % PerceptionSamples::kCount;
+    for (int m = 0; m < markers; m += 4) {
+      // Four at once; what is too many of them the next ones overwrite.
+      const auto n = first + static_cast<std::uint32_t>(m);
+      const Float4 sx = samples_.x(n), sy = samples_.y(n), sz = samples_.z(n);
+      const Float4 x = all4(at.x) + (sx * all4(to_x.x) + sy * all4(to_y.x) + sz * all4(to_z.x));
+      const Float4 y = all4(at.y) + (sx * all4(to_x.y) + sy * all4(to_y.y) + sz * all4(to_z.y));
+      const Float4 z = all4(at.z) + (sx * all4(to_x.z) + sy * all4(to_y.z) + sz * all4(to_z.z));
+      store4(x_ + count_, x), store4(y_ + count_, y), store4(z_ + count_, z);
+      store4(cell_ + count_, cell_of_(x, y, z));
+      store4(bud_ + count_, Int4{bud, bud, bud, bud});
+      count_ += static_cast<std::size_t>(std::min(4, markers - m));
+    }
+  }
+  std::size_t count() const { return count_; }
+  const RandomStream& random() const { return random_; }
+
+ private:
+  Bud* buds_;
+  PerceptionSamples::Reader samples_;
+  Occupancy::CellFinder cell_of_;
+  RandomStream random_;
+  float occupied_m_, rate_, greatest_;
+  bool planar_;
+  float *x_, *y_, *z_;
+  std::int32_t *cell_, *bud_;
+  std::size_t count_ = 0;
+};
 
 /// Where the tip of a trunk has room on its own axis, or above, when its region refuses most of its markers.
 void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, std::size_t first, std::size_t end) {
@@ -94,19 +120,6 @@ void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, s
     claim(tree, bud, ahead);
     break;
   }
-}
-
-/// Drops the markers of some buds, from `count` on; returns their end. The others' are not there any more.
-std::size_t drop_all(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, std::size_t count) {
-  const std::size_t end = drop(tree, bud, count);
-  const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-  if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, count, end);
-  return end;
-}
-
-void make_room(Tree& tree, std::size_t buds) {
-  tree.dropped.make_room(buds * (1 + static_cast<std::size_t>(tree.parameters->marker_rate)) +
-                         PerceptionSamples::kMost);
 }
 
 /// Looks the markers up, then claims the few that stand: no step waits for another.
@@ -144,41 +157,47 @@ void claim_dropped(Tree& tree, const RegionTest& in_its_region, std::size_t coun
   }
 }
 
+void drop_and_claim(Tree& tree, std::span<const std::int32_t> buds) {
+  const RegionTest in_its_region(tree);
+  Dropping dropping(tree, buds.size());
+  for (const std::int32_t bud : buds) {
+    const std::size_t first = dropping.count();
+    dropping.drop(bud);
+    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, dropping.count());
+  }
+  tree.random = dropping.random();
+  claim_dropped(tree, in_its_region, dropping.count());
+}
+
+/// Buds that died, or whose wood fell, leave the list.
+void weed_out(Tree& tree) {
+  std::size_t living = 0;
+  for (const std::int32_t bud : tree.living) {
+    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    const bool lives = b.state != BudState::dead && (b.node < 0 || tree.wood.alive(static_cast<std::size_t>(b.node)));
+    if (!lives) b.state = BudState::dead;
+    tree.living[living] = bud, living += lives;
+  }
+  tree.living.resize(living);
+  tree.work.bud_visits += living;
+}
+
 }  // namespace
 
 void sense(Tree& tree) {
   tree.work.shadow_cells += tree.shadow.settle();
-  const bool painted = !tree.input->markers.empty();
-  const RegionTest in_its_region(tree);
-  make_room(tree, tree.living.size());
-  std::size_t living = 0, markers = 0;
-  for (std::size_t n = 0; n < tree.living.size(); ++n) {
-    const std::int32_t bud = tree.living[n];
-    if (n + kFetchAhead < tree.living.size())
-      __builtin_prefetch(&tree.buds[static_cast<std::size_t>(tree.living[n + kFetchAhead])]);
-    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    if (b.state == BudState::dead || (b.node >= 0 && !tree.wood.alive(static_cast<std::size_t>(b.node)))) {
-      b.state = BudState::dead;
-      continue;
-    }
-    tree.living[living++] = bud;
-    sense_light(tree, b);
-    if (!painted) markers = drop_all(tree, in_its_region, bud, markers);
-  }
-  tree.living.resize(living);
-  tree.work.bud_visits += living;
-  painted ? claim_painted(tree, tree.living) : claim_dropped(tree, in_its_region, markers);
+  weed_out(tree);
+  sense_light(tree);
+  if (!tree.input->markers.empty()) return claim_painted(tree, tree.living);
+  drop_and_claim(tree, tree.living);
 }
 
 void compete_again(Tree& tree) {
   tree.extending.clear();
   for (const GrowingBud& g : tree.growing) tree.extending.push_back(g.bud);
   if (!tree.input->markers.empty()) return claim_painted(tree, tree.extending);
-  const RegionTest in_its_region(tree);
-  make_room(tree, tree.extending.size());
-  std::size_t markers = 0;
-  for (const std::int32_t bud : tree.extending) markers = drop_all(tree, in_its_region, bud, markers);
-  claim_dropped(tree, in_its_region, markers);
+  drop_and_claim(tree, tree.extending);
 }
 
 }  // namespace bosquet::growth

@@ -120,6 +120,9 @@ struct DroppedMarkers {
   }
 };
 
+/// v / v_max.
+inline float share_of(float v, float greatest) { return greatest > 0.0f ? smaller(v / greatest, 1.0f) : 0.0f; }
+
 struct Tree {
   // What is grown.
   const GrowthInput* input = nullptr;
@@ -171,7 +174,7 @@ struct Tree {
   GrowthWork work;
 
   /// v / v_max of the season that v was last shared in.
-  float vigor_of(const Bud& b) const { return greatest_vigor > 0.0f ? smaller(b.flow / greatest_vigor, 1.0f) : 0.0f; }
+  float vigor_of(const Bud& b) const { return share_of(b.flow, greatest_vigor); }
   /// From v to v / v_max of this season, for an internode that was there before.
   void scale_vigor(std::size_t i) { wood.vigor[i] = greatest_vigor > 0.0f ? wood.vigor[i] / greatest_vigor : 0.0f; }
   const Habit& habit(std::uint8_t order) const {

@@ -254,7 +254,7 @@ TEST(Markers, SamplesFillThePerceptionVolumeEvenly) {
   double inner = 0, narrow = 0;
   const float half_radius = std::cbrt(0.5f * (1.0f + 2.5f * 2.5f * 2.5f));  // halves the volume of the shell
   for (std::uint32_t i = 0; i < n; ++i) {
-    const Vec3 p{samples.x(i)[0], samples.y(i)[0], samples.z(i)[0]};
+    const Vec3 p{samples.reader().x(i)[0], samples.reader().y(i)[0], samples.reader().z(i)[0]};
     const float radius = glm::length(p);
     EXPECT_GE(radius, 0.9999f);
     EXPECT_LE(radius, 1.0f + depth + 1e-4f);
