@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/scalar.h"
+#include "growth/measure.h"
 
 namespace bosquet::growth {
 namespace {
@@ -39,7 +40,6 @@ std::vector<float> radii(const Skeleton& s, int season) {
 }
 
 int breast_height_internode(const Skeleton& s) {
-  constexpr float kBreastHeight = 1.3f;
   int found = -1;
   float widest = -1.0f;
   std::vector<std::int32_t> next(s.size(), -1);
