@@ -4,9 +4,6 @@
 // Units     light in 0..1; none is darker than kLeastLight, so that no bud's signal is zero
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-
 #include "growth/lanes.h"
 #include "growth/tree.h"
 

@@ -10,10 +10,8 @@
 // Cost      one backward and one forward sweep over the other living internodes, no allocation
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
-#include "core/scalar.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
