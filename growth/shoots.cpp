@@ -22,6 +22,7 @@
 #include "core/scalar.h"
 #include "growth/directions.h"
 #include "growth/gravimorphism.h"
+#include "growth/region_test.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
@@ -59,10 +60,13 @@ Vec3 set_point(Tree& tree, const Habit& habit, const Vec3& h, const Vec3& at) {
 }
 
 /// F, the tropism S with the press of the neighbours.
-Vec3 pressed(const Tree& tree, const Vec3& s) {
+Vec3 pressed(Tree& tree, const Vec3& s) {
   if (!tree.leans) return s;
-  const float fade = 1.0f - std::sqrt(std::min(1.0f, tree.height_m / tree.input->max_height_m));
-  return normalised_or(s + fade * tree.input->asymmetry, s);
+  if (tree.height_m != tree.pressed_at_m) {
+    tree.pressed_at_m = tree.height_m;
+    tree.press = 1.0f - std::sqrt(std::min(1.0f, tree.height_m / tree.input->max_height_m));
+  }
+  return normalised_or(s + tree.press * tree.input->asymmetry, s);
 }
 
 /// Chance of a lateral bud that stands on `side` of an axis with this heading, at place x of its shoot.
@@ -82,7 +86,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   const Parameters& p = *tree.parameters;
   Buds& buds = tree.buds;
   const auto c = static_cast<std::size_t>(carrier);
-  const Vec3 heading = tree.internodes.heading[c];
+  const Vec3 heading = tree.internodes.parts[c].heading;
 
   // How many stand here.
   int count = p.phyllotaxis == Phyllotaxis::whorled ? p.whorl : p.phyllotaxis == Phyllotaxis::decussate ? 2 : 1;
@@ -99,16 +103,17 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
   const float bole_m = std::max(p.bole * tree.input->max_height_m, tree.input->clear_stem_m);
   if (tree.wood.order[c] == 0 && buds[tip].at.y < bole_m) count = 0;
   if (p.planar) count = std::min(count, 2);  // a plane has two sides
-  tree.internodes.first_bud[c] = static_cast<std::int32_t>(buds.size());
-  tree.internodes.buds[c] = static_cast<std::uint8_t>(count);
-  tree.internodes.laterals[static_cast<std::size_t>(buds[tip].node)] = static_cast<std::uint8_t>(count);
+  tree.internodes.parts[c].first_bud = static_cast<std::int32_t>(buds.size());
+  tree.internodes.parts[c].buds = static_cast<std::uint8_t>(count);
+  tree.internodes.parts[static_cast<std::size_t>(buds[tip].node)].laterals = static_cast<std::uint8_t>(count);
 
   const float x = shoot_end && g.made == 0
                       ? 1.0f
                       : (static_cast<float>(g.made) + 0.5f) / static_cast<float>(std::max(1, g.planned));
   const auto order = static_cast<std::uint8_t>(std::min(255, tree.wood.order[c] + 1));
   const Habit& habit = tree.habit(order);
-  Vec3 side = normalised_or(buds.side[tip] - glm::dot(buds.side[tip], heading) * heading, basis_around(heading).x);
+  Vec3 side = normalised_or(buds.origin[tip].side - glm::dot(buds.origin[tip].side, heading) * heading,
+                            basis_around(heading).x);
   if (count > 0) {
     const SinCos between = tree.between_buds[static_cast<std::size_t>(count)];
     Vec3 azimuth = side;
@@ -116,7 +121,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
       const Vec3 direction = heading * habit.branching_cos + azimuth * habit.branching_sin;
       const std::int32_t bud = buds.push_back(buds[tip].at, direction, buds[tip].node, order, BudState::lateral);
       const auto b = static_cast<std::size_t>(bud);
-      buds.carrier[b] = carrier;
+      buds.origin[b].carrier = carrier;
       buds[b].factor = bud_factor(habit, heading, azimuth, x);
       buds[b].sky = buds[tip].sky;
       tree.living.push_back(bud);
@@ -134,25 +139,25 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
     const SinCos turn = tree.phyllotactic;
     side = turned(side, heading, turn.sin, turn.cos);
   }
-  buds.side[tip] = side;
+  buds.origin[tip].side = side;
 }
 
 /// A lateral bud becomes the tip of a new axis.
 void start_axis(Tree& tree, std::size_t bud) {
   Buds& buds = tree.buds;
   buds[bud].state = BudState::terminal;
-  buds.axis[bud] = tree.axes++;
+  buds.origin[bud].axis = tree.axes++;
   tree.tip_of.push_back(static_cast<std::int32_t>(bud));
   // The first bud stands to a side, level, so that two-ranked branches are flat sprays.
   const Vec3 h = buds[bud].direction;
   const Vec3 level = normalised_or(glm::cross(h, kUp), basis_around(h).x);
-  buds.side[bud] = tree.parameters->planar  ? normalised_or(Vec3{h.y, -h.x, 0.0f}, Vec3{1.0f, 0.0f, 0.0f})
-                   : tree.random.bits() & 1 ? level
-                                            : -level;
+  buds.origin[bud].side = tree.parameters->planar  ? normalised_or(Vec3{h.y, -h.x, 0.0f}, Vec3{1.0f, 0.0f, 0.0f})
+                          : tree.random.bits() & 1 ? level
+                                                   : -level;
 }
 
 /// One metamer; false when it may not stand where it would.
-bool add_metamer(Tree& tree, const GrowingBud& g) {
+bool add_metamer(Tree& tree, const RegionTest& in_its_region, const GrowingBud& g) {
   Buds& buds = tree.buds;
   Skeleton& wood = tree.wood;
   const auto b = static_cast<std::size_t>(g.bud);
@@ -168,14 +173,14 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   };
   const Vec3 at = buds[b].at;
   Vec3 heading = toward(pressed(tree, s));
-  if (buds[b].order == 0 && tree.leans && !in_region(tree, at + tree.occupied_m * heading)) heading = toward(s);
+  if (buds[b].order == 0 && tree.leans && !in_its_region(at + tree.occupied_m * heading)) heading = toward(s);
   const float ground = buds[b].order == 0 ? 0.0f : tree.input->clear_stem_m;
   if (at.y + tree.length_m * heading.y < ground) return false;
   // A metamer that would leave the region turns to the free space in it; a trunk rises along the border, or back to it.
   bool inside = true;
   const auto stays = [&](const Vec3& way) {
     heading = way;
-    return inside = in_region(tree, at + tree.length_m * way);
+    return inside = in_its_region(at + tree.length_m * way);
   };
   if (!stays(heading) && !stays(space) && buds[b].order == 0 &&
       !stays(normalised_or(habit.alpha * h + (1.0f - habit.alpha) * kUp, kUp)) && !stays(kUp)) {
@@ -184,14 +189,14 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   const Vec3 end = at + tree.length_m * heading;
 
   if (end.y < ground) return false;
-  if (buds[b].order > 0 && !inside && !in_region(tree, at)) return false;
+  if (buds[b].order > 0 && !inside && !in_its_region(at)) return false;
 
   const bool new_axis = buds[b].state == BudState::lateral;
   if (new_axis) start_axis(tree, b);
   const auto internode = static_cast<std::int32_t>(wood.size());
   const std::int32_t below = buds[b].node;
   wood.parent.push_back(below);
-  wood.axis.push_back(buds.axis[b]);
+  wood.axis.push_back(buds.origin[b].axis);
   wood.order.push_back(buds[b].order);
   wood.distal.push_back(end);
   wood.born.push_back(static_cast<std::uint16_t>(tree.season));
@@ -200,17 +205,18 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
   wood.vigor.push_back(tree.vigor_of(buds[b]));
   tree.internodes.push_back(heading, below, buds[b].order, new_axis ? kLateral : kMain);
   if (!new_axis && below >= 0) {
-    tree.internodes.next[static_cast<std::size_t>(below)] = internode;
-    tree.internodes.above[static_cast<std::size_t>(below)] = internode;
+    tree.internodes.parts[static_cast<std::size_t>(below)].next = internode;
+    tree.internodes.parts[static_cast<std::size_t>(below)].above = internode;
     set_lateral_buds(tree, internode, b, g);
   } else {
-    tree.internodes.first_bud.back() = static_cast<std::int32_t>(buds.size());
+    tree.internodes.parts.back().first_bud = static_cast<std::int32_t>(buds.size());
   }
 
   buds[b].node = internode;
   buds[b].at = end;
   buds[b].direction = heading;
-  buds.side[b] = normalised_or(buds.side[b] - glm::dot(buds.side[b], heading) * heading, basis_around(heading).x);
+  buds.origin[b].side =
+      normalised_or(buds.origin[b].side - glm::dot(buds.origin[b].side, heading) * heading, basis_around(heading).x);
   buds[b].factor = 1.0f;
   if (tree.input->light) buds[b].sky = tree.input->light->at(end);
   tree.shadow.cast(end);
@@ -221,13 +227,14 @@ bool add_metamer(Tree& tree, const GrowingBud& g) {
 }
 
 /// Would such a turn carry wood out of the region?
-bool turns_out(const Tree& tree, std::int32_t first, const Vec3& axis, float sin, float cos) {
+bool turns_out(const Tree& tree, const RegionTest& in_its_region, std::int32_t first, const Vec3& axis, float sin,
+               float cos) {
   if (!tree.input->region) return false;
   const Skeleton& wood = tree.wood;
   const Vec3 pivot = wood.proximal(static_cast<std::size_t>(first));
-  for (std::int32_t i = first; i >= 0; i = tree.internodes.next[static_cast<std::size_t>(i)]) {
+  for (std::int32_t i = first; i >= 0; i = tree.internodes.parts[static_cast<std::size_t>(i)].next) {
     const Vec3& end = wood.distal[static_cast<std::size_t>(i)];
-    if (in_region(tree, end) && !in_region(tree, pivot + turned(end - pivot, axis, sin, cos))) return true;
+    if (in_its_region(end) && !in_its_region(pivot + turned(end - pivot, axis, sin, cos))) return true;
   }
   return false;
 }
@@ -242,25 +249,25 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
   const auto move_bud = [&](std::size_t b, const Vec3& at) {
     buds[b].at = at;
     buds[b].direction = turned(buds[b].direction, axis, sin, cos);
-    buds.side[b] = turned(buds.side[b], axis, sin, cos);
+    buds.origin[b].side = turned(buds.origin[b].side, axis, sin, cos);
     if (tree.input->light) buds[b].sky = tree.input->light->at(at);
   };
-  for (std::int32_t i = first; i >= 0; i = in.next[static_cast<std::size_t>(i)]) {
+  for (std::int32_t i = first; i >= 0; i = in.parts[static_cast<std::size_t>(i)].next) {
     const auto n = static_cast<std::size_t>(i);
     if (i != first) {
-      for (int k = 0; k < in.buds[n]; ++k) {
-        move_bud(static_cast<std::size_t>(in.first_bud[n] + k), wood.proximal(n));
+      for (int k = 0; k < in.parts[n].buds; ++k) {
+        move_bud(static_cast<std::size_t>(in.parts[n].first_bud + k), wood.proximal(n));
       }
     }
     const Vec3 before = wood.distal[n];
     tree.shadow.take_back(before);
     wood.distal[n] = pivot + turned(before - pivot, axis, sin, cos);
-    in.heading[n] = turned(in.heading[n], axis, sin, cos);
+    in.parts[n].heading = turned(in.parts[n].heading, axis, sin, cos);
     tree.shadow.cast(wood.distal[n]);
     tree.occupancy.move(before, wood.distal[n]);
     ++tree.work.shadow_updates;
     tree.height_m = std::max(tree.height_m, wood.distal[n].y);
-    if (in.next[n] < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
+    if (in.parts[n].next < 0) move_bud(static_cast<std::size_t>(tree.tip_of[wood.axis[n]]), wood.distal[n]);
   }
 }
 
@@ -313,28 +320,31 @@ bool choose_growing(Tree& tree) {
 }
 
 void deflect(Tree& tree) {
+  const RegionTest in_its_region(tree);
   Buds& buds = tree.buds;
   for (const GrowingBud& g : tree.growing) {
     const auto b = static_cast<std::size_t>(g.bud);
     if (buds[b].state != BudState::lateral) continue;
-    const auto carrier = static_cast<std::size_t>(buds.carrier[b]);
+    const auto carrier = static_cast<std::size_t>(buds.origin[b].carrier);
     const Habit& habit = tree.habit(buds[b].order);
     if (habit.deflection_sin == 0.0f || tree.wood.born[carrier] + 1 != tree.season) continue;
-    const Vec3 axis = glm::cross(buds[b].direction, tree.internodes.heading[carrier]);
+    const Vec3 axis = glm::cross(buds[b].direction, tree.internodes.parts[carrier].heading);
     const float length = std::sqrt(glm::dot(axis, axis));
     if (length < 1e-4f) continue;
     const Vec3 about = axis / length;
-    if (turns_out(tree, buds.carrier[b], about, habit.deflection_sin, habit.deflection_cos)) continue;
-    turn_shoot(tree, buds.carrier[b], about, habit.deflection_sin, habit.deflection_cos);
+    if (turns_out(tree, in_its_region, buds.origin[b].carrier, about, habit.deflection_sin, habit.deflection_cos))
+      continue;
+    turn_shoot(tree, buds.origin[b].carrier, about, habit.deflection_sin, habit.deflection_cos);
   }
 }
 
 bool extend(Tree& tree) {
+  const RegionTest in_its_region(tree);
   for (bool first = true; !tree.growing.empty(); first = false) {
     if (!first) compete_again(tree);
     std::size_t kept = 0;
     for (GrowingBud g : tree.growing) {
-      if (tree.buds[static_cast<std::size_t>(g.bud)].claims == 0 || !add_metamer(tree, g)) continue;
+      if (tree.buds[static_cast<std::size_t>(g.bud)].claims == 0 || !add_metamer(tree, in_its_region, g)) continue;
       if (++g.made < g.planned) tree.growing[kept++] = g;
     }
     tree.growing.resize(kept);

@@ -9,12 +9,12 @@
 // Decision  a bud competes when one of its own markers may stand: who saw no room takes none from those who did
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "growth/directions.h"
 #include "growth/lanes.h"
 #include "growth/light.h"
+#include "growth/region_test.h"
 #include "growth/tree.h"
 
 namespace bosquet::growth {
@@ -22,32 +22,6 @@ namespace {
 
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
-
-/// in_region() for many places, ready for use.
-class RegionTest {
- public:
-  explicit RegionTest(const Tree& tree) : region_(tree.input->region) {
-    if (!region_) return;
-    low_ = lanes(region_->low);
-    edge_ = Float4{region_->voxel_m, region_->layer_m, region_->voxel_m, 1.0f};
-    end_ = Float4{static_cast<float>(region_->cells.x), static_cast<float>(region_->cells.y),
-                  static_cast<float>(region_->cells.z), 1.0f};
-    lid_ = all4(std::numeric_limits<float>::max());
-    lid_[1] = tree.input->max_height_m - region_->layer_m;
-  }
-  bool operator()(Float4 p) const {
-    if (!region_) return true;
-    p = lid_ < p ? lid_ : p;
-    const Float4 q = (p - low_) / edge_;
-    const bool inside = all((q >= all4(0.0f)) & (q < end_));
-    const Int4 c = whole(inside ? q : all4(0.0f));
-    return inside & region_->voxel({c[0], c[1], c[2]});
-  }
-
- private:
-  const crowns::CrownRegion* region_;
-  Float4 low_{}, edge_{}, end_{}, lid_{};
-};
 
 /// Makes the markers of one bud after another; what they are made of stands beside each other.
 class Dropping {

@@ -7,6 +7,7 @@
 #include "core/scalar.h"
 #include "growth/directions.h"
 #include "growth/light.h"
+#include "growth/region_test.h"
 
 namespace bosquet::growth {
 namespace {
@@ -47,22 +48,15 @@ void add_stem(Tree& tree, float lean, float azimuth) {
   const auto b = static_cast<std::size_t>(bud);
   const SinCos first = sin_cos(2.0f * kPi * tree.random.uniform());
   const Basis around = basis_around(direction);
-  buds.side[b] =
+  buds.origin[b].side =
       tree.parameters->planar ? Vec3{direction.y, -direction.x, 0.0f} : around.x * first.cos + around.y * first.sin;
-  buds.axis[b] = tree.axes++;
+  buds.origin[b].axis = tree.axes++;
   buds[b].sky = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
   tree.tip_of.push_back(bud);
   tree.living.push_back(bud);
 }
 
 }  // namespace
-
-void Internodes::clear() {
-  each.clear(), next.clear(), above.clear(), laterals.clear();
-  first_bud.clear(), buds.clear(), heading.clear();
-}
-
-void Buds::clear() { each.clear(), side.clear(), carrier.clear(), axis.clear(), claimed.clear(); }
 
 void plant(Tree& tree, const GrowthInput& input) {
   const Parameters& p = *input.parameters;
@@ -84,7 +78,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   tree.phase = -2;
   tree.random = RandomStream(input.seed, input.key, Purpose::growth);
   tree.season = 0, tree.idle_seasons = 0, tree.finished = false;
-  tree.height_m = 0.0f, tree.axes = 0;
+  tree.height_m = 0.0f, tree.pressed_at_m = -1.0f, tree.axes = 0;
   tree.work = {};
 
   Skeleton& wood = tree.wood;
@@ -109,9 +103,10 @@ void plant(Tree& tree, const GrowthInput& input) {
   tree.samples.reset(p.perception_depth / p.occupancy_radius, tree.cos_perception, p.planar);
 
   tree.markers.clear(), tree.found_marker = false, tree.highest_marker_m = 0.0f;
+  const RegionTest in_its_region(tree);
   for (const Vec3& marker : input.markers) {
     assert(glm::dot(marker, marker) < 1e12f);  // finite, and on any site
-    if (marker.y <= 0.0f || !in_region(tree, marker)) continue;
+    if (marker.y <= 0.0f || !in_its_region(marker)) continue;
     tree.markers.push_back(marker);
     tree.highest_marker_m = std::max(tree.highest_marker_m, marker.y);
   }

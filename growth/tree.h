@@ -44,24 +44,28 @@ struct alignas(32) Internode {
   std::uint8_t way = kLateral;  ///< in which it goes on from its parent
 };
 
+/// What is asked of an internode when something beside it changes.
+struct InternodeParts {
+  Vec3 heading{0.0f};
+  std::int32_t next = kNone;   ///< continuation of the axis
+  std::int32_t above = kNone;  ///< the same, past bare ones
+  std::int32_t first_bud = 0;  ///< lateral buds at the base: first_bud .. first_bud + buds
+  std::uint8_t buds = 0;
+  std::uint8_t laterals = 0;  ///< living buds and standing branches at the upper end
+};
+
 /// Working data of internodes, beside the skeleton's.
 struct Internodes {
   std::vector<Internode> each;
-  std::vector<std::int32_t> next;       ///< continuation of the axis
-  std::vector<std::int32_t> above;      ///< the same, past bare ones
-  std::vector<std::uint8_t> laterals;   ///< living buds and standing branches at the upper end
-  std::vector<std::int32_t> first_bud;  ///< lateral buds at the base: first_bud .. first_bud + buds
-  std::vector<std::uint8_t> buds;
-  std::vector<Vec3> heading;
+  std::vector<InternodeParts> parts;
 
   Internode& operator[](std::size_t i) { return each[i]; }
   const Internode& operator[](std::size_t i) const { return each[i]; }
-  void clear();
-  void push_back(const Vec3& h, std::int32_t parent, std::uint8_t order, Way way) {
+  void clear() { each.clear(), parts.clear(); }
+  void push_back(const Vec3& heading, std::int32_t parent, std::uint8_t order, Way way) {
     Internode& i = each.emplace_back();
     i.parent = parent, i.order = order, i.way = way;
-    next.push_back(kNone), above.push_back(kNone), laterals.push_back(0), first_bud.push_back(0), buds.push_back(0),
-        heading.push_back(h);
+    parts.emplace_back().heading = heading;
   }
 };
 
@@ -80,22 +84,27 @@ struct alignas(64) Bud {
   float signal = 0.0f, flow = 0.0f;  ///< Q, v as last shared
 };
 
+/// Where a bud comes from.
+struct BudOrigin {
+  Vec3 side{0.0f};               ///< terminal bud: across the axis, azimuth of the next lateral bud
+  std::int32_t carrier = kNone;  ///< lateral bud: the internode at whose base it stands
+  std::uint32_t axis = 0;        ///< terminal bud: its axis
+};
+
 struct Buds {
   std::vector<Bud> each;
-  std::vector<Vec3> side;             ///< across the axis: azimuth of the next lateral bud (of terminal buds)
-  std::vector<std::int32_t> carrier;  ///< lateral bud: the internode at whose base it stands
-  std::vector<std::uint32_t> axis;    ///< terminal bud: its axis
-  std::vector<Vec3> claimed;          ///< this season: sum of directions to markers; valid where there are claims
+  std::vector<BudOrigin> origin;
+  std::vector<Vec3> claimed;  ///< this season: sum of directions to markers; valid where there are claims
 
   Bud& operator[](std::size_t b) { return each[b]; }
   const Bud& operator[](std::size_t b) const { return each[b]; }
   std::size_t size() const { return each.size(); }
-  void clear();
+  void clear() { each.clear(), origin.clear(), claimed.clear(); }
   /// Written in place, number by number: whole vectors just written to memory would be waited for.
   std::int32_t push_back(Vec3 at, Vec3 direction, std::int32_t node, std::uint8_t order, BudState state) {
     Bud& b = each.emplace_back();
     b.at = at, b.direction = direction, b.node = node, b.order = order, b.state = state;
-    side.emplace_back(0.0f), carrier.push_back(kNone), axis.push_back(0), claimed.emplace_back(0.0f);
+    origin.emplace_back(), claimed.emplace_back(0.0f);
     return static_cast<std::int32_t>(each.size() - 1);
   }
 };
@@ -143,6 +152,7 @@ struct Tree {
   int idle_seasons = 0;  ///< in a row, without a new internode
   bool finished = false;
   float height_m = 0;
+  float press = 0, pressed_at_m = -1;  ///< of the neighbours at that height, 1 at the ground
   std::uint32_t axes = 0;
   Skeleton wood;  ///< while it grows vigor is v as last shared, of this season's wood its bud's v / v_max
   Internodes internodes;
@@ -182,15 +192,6 @@ struct Tree {
   }
 };
 
-/// May a marker stand here for all that the region says? It has no lid: above the tree's height its last layer counts,
-/// for growth ends there anyway, and a tip that sees no room just below would only be late.
-inline bool in_region(const Tree& tree, Vec3 p) {
-  const crowns::CrownRegion* region = tree.input->region;
-  if (!region) return true;
-  p.y = std::min(p.y, tree.input->max_height_m - region->layer_m);
-  return region->contains(p);
-}
-
 /// Starts a tree: one terminal bud for each stem.
 void plant(Tree& tree, const GrowthInput& input);
 
@@ -226,7 +227,7 @@ bool extend(Tree& tree);
 
 /// A lateral bud or branch of an internode is no more.
 inline void lose_lateral(Tree& tree, std::int32_t node) {
-  if (--tree.internodes.laterals[static_cast<std::size_t>(node)] == 0) tree.thinned.push_back(node);
+  if (--tree.internodes.parts[static_cast<std::size_t>(node)].laterals == 0) tree.thinned.push_back(node);
 }
 
 /// Gives bare internodes the vigor that passes them, as last shared.

@@ -24,7 +24,7 @@ void list_standing(Tree& tree) {
     if (!tree.wood.alive(tree.listed)) continue;
     tree.standing.push_back(static_cast<std::int32_t>(tree.listed));
     const Internode& i = in[tree.listed];
-    if (i.parent >= 0 && i.way == kMain && in.laterals[static_cast<std::size_t>(i.parent)] == 0)
+    if (i.parent >= 0 && i.way == kMain && in.parts[static_cast<std::size_t>(i.parent)].laterals == 0)
       tree.thinned.push_back(i.parent);
   }
 }
@@ -34,14 +34,14 @@ void pass_over_bare(Tree& tree) {
   Internodes& in = tree.internodes;
   for (const std::int32_t node : tree.thinned) {
     const auto n = static_cast<std::size_t>(node);
-    const std::int32_t above = in.above[n];
+    const std::int32_t above = in.parts[n].above;
     if (!tree.wood.alive(n) || above < 0 || static_cast<std::size_t>(above) >= tree.listed) continue;
     Internode &i = in[n], &heir = in[static_cast<std::size_t>(above)];
     if (i.span == 0 || i.span + heir.span > std::numeric_limits<std::uint16_t>::max()) continue;
     heir.span = static_cast<std::uint16_t>(heir.span + i.span), i.span = 0;
     heir.gathered[kStanding] = heir.span, i.gathered[kStanding] = 0.0f;
     heir.parent = i.parent, heir.way = i.way;
-    if (i.parent >= 0 && i.way == kMain) in.above[static_cast<std::size_t>(i.parent)] = above;
+    if (i.parent >= 0 && i.way == kMain) in.parts[static_cast<std::size_t>(i.parent)].above = above;
   }
   tree.thinned.clear();
 }
@@ -56,7 +56,7 @@ void fill_in_vigor(Tree& tree) {
   std::vector<float>& vigor = tree.wood.vigor;
   for (std::size_t i = tree.listed; i-- > 0;) {
     if (tree.internodes[i].span > 0 || !tree.wood.alive(i)) continue;
-    vigor[i] = vigor[static_cast<std::size_t>(tree.internodes.next[i])];
+    vigor[i] = vigor[static_cast<std::size_t>(tree.internodes.parts[i].next)];
   }
 }
 

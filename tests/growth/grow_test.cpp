@@ -288,11 +288,11 @@ std::vector<std::vector<Vec3>> trunk_nodes(const Parameters& p) {
   while (!tree.finished) {
     grow_season(tree);
     for (std::size_t b = seen; b < tree.buds.size(); ++b) {
-      if (tree.buds.carrier[b] < 0) continue;
-      const auto carrier = static_cast<std::size_t>(tree.buds.carrier[b]);
+      if (tree.buds.origin[b].carrier < 0) continue;
+      const auto carrier = static_cast<std::size_t>(tree.buds.origin[b].carrier);
       if (tree.wood.order[carrier] != 0) continue;
-      const Vec3 h = tree.internodes.heading[carrier];
-      if (static_cast<std::size_t>(tree.internodes.first_bud[carrier]) == b) nodes.emplace_back();
+      const Vec3 h = tree.internodes.parts[carrier].heading;
+      if (static_cast<std::size_t>(tree.internodes.parts[carrier].first_bud) == b) nodes.emplace_back();
       nodes.back().push_back(glm::normalize(tree.buds[b].direction - glm::dot(tree.buds[b].direction, h) * h));
     }
     seen = tree.buds.size();

@@ -159,8 +159,8 @@ double favoured_side(const Parameters& p, std::uint64_t seed, const F& f) {
     // Buds are seen in the season that made them: later they move on as tips.
     for (std::size_t b = side.size(); b < tree.buds.size(); ++b) {
       side.push_back(std::nan(""));
-      if (tree.buds.carrier[b] < 0) continue;
-      const Vec3 h = tree.internodes.heading[static_cast<std::size_t>(tree.buds.carrier[b])];
+      if (tree.buds.origin[b].carrier < 0) continue;
+      const Vec3 h = tree.internodes.parts[static_cast<std::size_t>(tree.buds.origin[b].carrier)].heading;
       if (std::abs(h.y) > 0.70710678f) continue;
       const Vec3 across = glm::normalize(tree.buds[b].direction - glm::dot(tree.buds[b].direction, h) * h);
       side.back() = f(glm::dot(across, most_vertical(h)));
@@ -171,7 +171,7 @@ double favoured_side(const Parameters& p, std::uint64_t seed, const F& f) {
   for (std::size_t b = 0; b < side.size(); ++b) {
     if (std::isnan(side[b])) continue;
     all += side[b], ++n_all;
-    if (tree.buds.axis[b] > 0) broken += side[b], ++n_broken;
+    if (tree.buds.origin[b].axis > 0) broken += side[b], ++n_broken;
   }
   return broken / n_broken - all / n_all;
 }
