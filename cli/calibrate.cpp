@@ -8,6 +8,7 @@
 #include "cli/species_source.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/write_protection.h"
 #include "exchange/file_output.h"
 #include "scene/calibration.h"
 
@@ -204,6 +205,18 @@ Result<void> run_calibrate(const Options& options) {
   if (!parent.empty() && !std::filesystem::is_directory(parent, ec))
     return Error{fmt::format("cannot write {}: there is no folder {}", output.string(), parent.string())};
 
+  // Known before anything grows: species files are people's own work.
+  const auto file_of = [&](const std::string& name) {
+    return folder ? output / (std::filesystem::path(name).stem().string() + ".toml") : output;
+  };
+  for (const std::string& name : output.empty() ? std::vector<std::string>() : names) {
+    const std::filesystem::path target = file_of(name);
+    if (std::filesystem::exists(target, ec) && !options.replace)
+      return Error{
+          fmt::format("{}: is there already and would be lost; take another name, or say --replace", target.string())};
+    if (auto fine = check_replaceable(target); !fine) return fine;
+  }
+
   Progress progress;
   ProgressDisplay display(progress, true);
   std::vector<std::string> failed, unknown;
@@ -212,7 +225,7 @@ Result<void> run_calibrate(const Options& options) {
     for (const std::string& name : names) {
       Outcome outcome = Outcome::unknown;
       const std::string stem = std::filesystem::path(name).stem();
-      done = calibrate_one(name, options, progress, outcome, folder ? output / (stem + ".toml") : output);
+      done = calibrate_one(name, options, progress, outcome, file_of(name));
       if (!done) return;
       if (outcome == Outcome::fails) failed.push_back(stem);
       if (outcome == Outcome::unknown) unknown.push_back(stem);

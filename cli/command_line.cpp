@@ -73,8 +73,8 @@ void add_threads(CLI::App* app, Options& o) {
       ->option_text("N");
 }
 
-void add_replace(CLI::App* app, Options& o) {
-  app->add_flag("--replace", o.replace, "A project or recipe that stands in an output's place may be lost");
+void add_replace(CLI::App* app, Options& o, const char* what = "A project or recipe") {
+  app->add_flag("--replace", o.replace, std::string(what) + " that stands in an output's place may be lost");
 }
 
 void add_quiet(CLI::App* app, Options& o) { app->add_flag("--quiet", o.quiet, "Shows no progress and no warnings"); }
@@ -278,7 +278,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->option_text("N");
   calibrate->add_flag("--quick", o.quick, "Leaves out the trees at detail 0.5 and 2");
-  add_threads(calibrate, o);
+  add_replace(calibrate, o, "A file"), add_threads(calibrate, o);
   calibrate->callback([&] { o.command = Command::species_calibrate; });
   CLI::App* gallery = species->add_subcommand(
       "gallery", "Draws a sheet of species, young, middle-aged and old, with and without leaves");

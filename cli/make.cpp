@@ -13,6 +13,7 @@
 #include "cli/version.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/write_protection.h"
 #include "exchange/file_output.h"
 #include "exchange/gltf_writer.h"
 #include "exchange/scene_files.h"
@@ -104,7 +105,7 @@ Result<void> check_folder(const path& target) {
     return Error{fmt::format("{}: is no regular file", target.string())};
   if (::access(folder.c_str(), W_OK) != 0)
     return Error{fmt::format("{}: no permission to write in {}", target.string(), folder.string())};
-  return {};
+  return check_replaceable(target);
 }
 
 constexpr const char* kKnownOutputs =

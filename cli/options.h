@@ -39,7 +39,7 @@ struct Options {
   Command command = Command::none;
   std::filesystem::path file;
   std::vector<std::filesystem::path> outputs;
-  bool replace = false;  ///< projects and recipes among the outputs may be lost
+  bool replace = false;  ///< projects, recipes and species files among the outputs may be lost
   std::string species;
   std::vector<std::string> names;  ///< of species, or .toml files of them
 

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "core/parallel.h"
+#include "core/write_protection.h"
 
 namespace bosquet::crowns {
 namespace {
@@ -154,6 +155,7 @@ Result<void> write_vdb(const TreeGrid& grid, const std::filesystem::path& path,
     return Error{fmt::format("cannot write {}: there is no folder {}", path.string(), folder.string())};
   if (std::filesystem::is_directory(path, status))
     return Error{fmt::format("cannot write {}: it is a folder", path.string())};
+  if (auto fine = check_replaceable(path); !fine) return fine;
 
   // A shallow copy carries the names; it shares the tree.
   Grid::Ptr named = new_grid();

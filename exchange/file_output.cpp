@@ -12,6 +12,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/write_protection.h"
+
 namespace bosquet::exchange {
 namespace {
 
@@ -70,6 +72,7 @@ Result<FileOutput> FileOutput::create(const std::filesystem::path& target) {
   if (target.filename().empty() || target.filename() == "." || target.filename() == "..")
     return describe(target, EISDIR);
 
+  if (auto fine = check_replaceable(target); !fine) return fine.error();
   const auto real = behind_links(target);
   struct stat old {};
   const bool exists = ::stat(real.c_str(), &old) == 0;

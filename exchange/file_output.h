@@ -5,7 +5,7 @@
 // Decision  a target that exists and is no regular file (a pipe, /dev/stdout) is written to directly; a symbolic link
 //           stays a link and the file it points to is replaced
 // Errors    every write is checked, the first failure is kept and returned by commit(): kind `input` when the folder is
-//           missing, may not be written or the target is a folder; kind `cannot_finish` when the disk is full or fails.
+//           missing, may not be written, or the target is a folder or read-only; kind `cannot_finish` when the disk is full or fails.
 //           Messages name the path.
 // Cost      writes of 4 MiB and more go to the system as they are, smaller ones are gathered
 #pragma once

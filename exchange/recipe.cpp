@@ -471,7 +471,11 @@ class Reader {
       table.error(table.has("file") ? "file" : "", "[underlay] needs file = \"plan.png\", a .png or .jpg");
     if (auto corner = table.numbers("south_west", 2)) underlay.south_west = {(*corner)[0], (*corner)[1]};
     describe(underlay, table);
-    if (!table.has("width_m")) table.error("", "[underlay] needs width_m, the picture's width on the ground");
+    const bool lacks_width = !table.has("width_m");
+    recipe_.underlay_from_world_file = {lacks_width, lacks_width && !table.has("south_west")};
+    if (lacks_width && !underlay.file.empty() && !world_file_of(underlay.file))
+      table.error(
+          "", "[underlay] needs width_m, the picture's width on the ground, or a world file beside it (.pgw, .jgw)");
     table.finish();
   }
 

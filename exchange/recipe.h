@@ -28,6 +28,7 @@
 #include "exchange/ground_recipe.h"
 #include "exchange/tree_file.h"
 #include "exchange/tree_import.h"
+#include "exchange/world_file.h"
 #include "scene/document.h"
 #include "scene/grown_scene.h"
 
@@ -123,6 +124,7 @@ struct Recipe {
   std::vector<HeroRecipe> heroes;
   std::vector<CameraRecipe> cameras;
   CounterRecipe counters;
+  FromWorldFile underlay_from_world_file{false, false};  ///< what the recipe leaves to it
 };
 
 /// Reads and checks a recipe. `seed` replaces the recipe's own when given.

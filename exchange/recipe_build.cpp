@@ -441,6 +441,11 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
     };
     document.cameras.push_back({camera.name, place(camera.eye), place(camera.target), camera.vertical_fov_deg});
   }
+  if (const FromWorldFile wanted = recipe.underlay_from_world_file; wanted.width) {
+    const DVec2 size(document.terrain->size_m());
+    if (auto laid = lay_by_world_file(document.underlay, wanted, document.place, size, built.warnings); !laid)
+      return Error{fmt::format("{}: [underlay] {}", recipe.file.string(), laid.error().message)};
+  }
   document.interactions = recipe.interactions;
   scene::settle_counters(document);
   // What was given once stays given, though it be gone.

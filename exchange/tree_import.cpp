@@ -28,20 +28,19 @@ constexpr float kMostScale = 2.0f;  // beyond it set_measured_size cuts
 constexpr double kAround_m = 1.0;   // left between a surveyed crown and the site's edge, as crowns lean a little
 constexpr std::size_t kListedTwins = 20;
 
-std::string shown(const std::string& name) { return name.empty() ? "(no name)" : name; }
-
 // What a name was taken for, and how often.
 struct Use {
   scene::SpeciesMatch match;
   std::size_t trees = 0;
 };
 
-// One line for each name that did not mean just a species, those of most trees first.
+// One line for each name that did not mean just a species, first what had none, then those of most trees.
 std::vector<std::string> substitution_lines(const std::map<std::string, Use>& uses, Known species,
                                             const std::string& file) {
   std::vector<std::pair<std::string, Use>> sorted(uses.begin(), uses.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.second.trees > b.second.trees; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.empty(), a.second.trees) > std::pair(b.first.empty(), b.second.trees);
+  });
   std::vector<std::string> out;
   for (const auto& [name, use] : sorted) {
     const std::string& as = species[use.match.species]->name;
@@ -61,7 +60,10 @@ std::vector<std::string> substitution_lines(const std::map<std::string, Use>& us
         out.push_back(fmt::format("{}: '{}' is not a known species; {}, a conifer", file, name, drawn));
         break;
       case scene::NameMatch::fallback:
-        out.push_back(fmt::format("{}: '{}' is not a known species; {}", file, shown(name), drawn));
+        out.push_back(name.empty() ? fmt::format("{}: {} for want of any name; another species is set by "
+                                                 "default_species in their [[planting]], or by names in the file",
+                                                 file, drawn)
+                                   : fmt::format("{}: '{}' is not a known species; {}", file, name, drawn));
         break;
     }
   }
@@ -142,6 +144,10 @@ ImportedTrees planted(Inventory inventory, const std::string& file, const TreeIm
   const auto where = [&](std::size_t line) {
     return inventory.features ? fmt::format("feature {}", line) : fmt::format("line {}", line);
   };
+  if (const auto nameless = uses.find(""); nameless != uses.end()) {
+    out.tally.nameless = nameless->second.trees;
+    out.tally.drawn_as = species[nameless->second.match.species]->name;
+  }
   std::size_t twins = 0;
   for (const auto& moved : distribution::move_duplicates_apart(standing, size)) {
     if (moved.index < others.size() || ++twins > kListedTwins) continue;
@@ -218,6 +224,7 @@ std::string words(const ImportTally& tally, bool features) {
   };
   std::string out = fmt::format("{} tree{}", tally.trees, tally.trees == 1 ? "" : "s");
   if (tally.left_out > 0) out += fmt::format(" of {}; {} left out", rows(tally.trees + tally.left_out), tally.left_out);
+  if (tally.nameless > 0) out += fmt::format("; {} without a name, drawn as {}", tally.nameless, tally.drawn_as);
   if (tally.moved > 0) out += fmt::format("; {} moved aside from another's place", tally.moved);
   if (tally.to_remove > 0) out += fmt::format("; {} to be removed, so not grown", tally.to_remove);
   return out;

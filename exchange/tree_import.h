@@ -43,6 +43,8 @@ struct ImportTally {
   std::size_t left_out = 0;   ///< rows without a usable place
   std::size_t moved = 0;      ///< from a place where another tree stands
   std::size_t to_remove = 0;  ///< not grown
+  std::size_t nameless = 0;   ///< of which nothing says what they are
+  std::string drawn_as;       ///< the species that those are
 };
 /// "18 trees of 20 rows; 2 left out; 1 moved aside from another's place".
 std::string words(const ImportTally& tally, bool features);

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/letters.h"
+#include "core/write_protection.h"
 #include "exchange/file_output.h"
 #include "exchange/gdal_scope.h"
 #include "exchange/reference_system.h"
@@ -270,6 +271,7 @@ bool writes_trees(const path& file) {
 Result<WrittenTrees> write_trees(const path& target, std::span<const TreeRecord> trees,
                                  const scene::Georeference& place, DVec2 site_m) {
   const std::string ending = folded_letters(target.extension().string());
+  if (auto fine = check_replaceable(target); !fine) return fine.error();
   if (ending == ".geojson") return write_geojson(target, trees, place);
   return write_with_gdal(target, trees, place, site_m, ending == ".shp");
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/write_protection.h"
 #include "scene/project_lock.h"
 #include "scene/project_store.h"
 
@@ -80,6 +81,7 @@ Result<void> write_new(const fs::path& path, const Document& document, const std
                        ProjectStore& store) {
   std::error_code ec;
   if (fs::is_directory(path, ec)) return Error{fmt::format("{}: is a folder, not a file", path.string())};
+  if (auto fine = check_replaceable(path); !fine) return fine;
   remove_forerunners(path);
   std::string hidden = (path.parent_path() / ("." + path.filename().string() + "-XXXXXX")).string();
   hidden += kForerunner;

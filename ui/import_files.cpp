@@ -11,6 +11,7 @@
 #include "exchange/obstacle_import.h"
 #include "exchange/tree_file.h"
 #include "exchange/tree_import.h"
+#include "exchange/world_file.h"
 #include "scene/settings_edits.h"
 #include "scene/site_edits.h"
 
@@ -81,9 +82,15 @@ Result<scene::Edited> import_underlay(const scene::Document& document, const std
   if (auto image = exchange::read_image(file); !image) return image.error();
   scene::Underlay underlay;
   underlay.file = std::filesystem::absolute(file).lexically_normal().string();
-  underlay.width_m = document.terrain->size_m().x;
+  const DVec2 size(document.terrain->size_m());
+  underlay.width_m = static_cast<float>(size.x);
+  std::vector<std::string> notes;
+  const auto laid = exchange::lay_by_world_file(underlay, {}, document.place, size, notes);
+  // One that cannot be read does not keep the picture away.
+  if (!laid) notes.push_back(laid.error().message);
+  if (!laid || !*laid) notes.push_back("it is as wide as the site; its width and corner are on the right");
   scene::Edited edit = scene::set_underlay(document, underlay);
-  edit.notes.push_back("it is as wide as the site; its width and corner are on the right");
+  edit.notes = std::move(notes);
   return edit;
 }
 

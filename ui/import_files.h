@@ -2,7 +2,8 @@
 //
 // Model     ground is resampled to the site, a raster that says nothing of where it lies from the site's corner on; trees
 //           and outlines are put where their coordinates say, in the site's reference system where it has one; a mesh
-//           stands with its origin on the ground at the site's south-west corner; a plan picture is as wide as the site
+//           stands with its origin on the ground at the site's south-west corner; a plan picture lies where its world file
+//           says, or is as wide as the site
 // Frame     plan (east, north) metres
 // Errors    those of the readers in exchange/, naming the file; the document stays as it was
 #pragma once

@@ -118,6 +118,16 @@ Result<UnderlayPicture> read_underlay(const scene::Underlay& underlay) {
   return picture;
 }
 
+scene::Underlay scaled_to(const scene::Underlay& underlay, Vec2 a, Vec2 b, double true_m) {
+  const double length = glm::length(DVec2(b) - DVec2(a));
+  if (!(length > 0.0) || !(true_m > 0.0)) return underlay;
+  const double by = true_m / length;
+  scene::Underlay scaled = underlay;
+  scaled.width_m = static_cast<float>(by * static_cast<double>(underlay.width_m));
+  scaled.south_west = DVec2(a) + by * (underlay.south_west - DVec2(a));
+  return scaled;
+}
+
 PlanRectangle rectangle_of(const scene::Underlay& underlay, float height_per_width) {
   const Vec2 low(underlay.south_west);
   return {low, low + Vec2(underlay.width_m, underlay.width_m * height_per_width)};

@@ -35,6 +35,9 @@ struct UnderlayPicture {
 /// Reads the file, at most 2048 pixels wide or high.
 Result<UnderlayPicture> read_underlay(const scene::Underlay& underlay);
 
+/// Smaller or larger, so that the way from `a` to `b` on it becomes `true_m` long; `a` stays where it is.
+scene::Underlay scaled_to(const scene::Underlay& underlay, Vec2 a, Vec2 b, double true_m);
+
 PlanRectangle rectangle_of(const scene::Underlay& underlay, float height_per_width);
 
 }  // namespace bosquet::ui

@@ -179,6 +179,26 @@ TEST_F(BadInput, AMistypedWordIsToldAloneWithTheNearestRightOne) {
   says("make x.toml -o park", "park: has no ending, which tells what to write");
   says("make x.toml -o park.glb --tree 1", "needs an output that it goes into, -o NAME.tree.json");
   says("make x.toml -o park.glb --wind on --instancing on", "give --wind on or --instancing on, not both");
+  says("render x.toml -o park.plan.png --view shapes", "is a plan sheet, which knows no --view");
+}
+
+TEST_F(BadInput, AFileThatIsReadOnlyOrASpeciesFileOfOnesOwnIsNotReplaced) {
+  write("site.toml", std::string(kSite) + "[[planting]]\nspecies = { rowan = 1 }\ncount = 1\n");
+  for (const char* name : {"park.glb", "park.csv", "park.shp", "park.vdb", "park.bosquet"}) {
+    write(name, "kept");
+    std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_read);
+    const Ran ran = bosquet("make site.toml --quiet --replace -o " + std::string(name));
+    EXPECT_EQ(ran.status, 1) << name;
+    EXPECT_NE(ran.err.find(std::string(name) + ": it is read-only"), std::string::npos) << ran.err;
+    EXPECT_EQ(file_text(folder_ / name), "kept") << name;
+  }
+  write("mine.toml", "mine");
+  const Ran ran = bosquet("species calibrate rowan --trees 1 --quick -o mine.toml");
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.err.find("mine.toml: is there already and would be lost"), std::string::npos) << ran.err;
+  EXPECT_EQ(file_text(folder_ / "mine.toml"), "mine");
+  EXPECT_EQ(bosquet("species calibrate rowan --trees 1 --quick -o mine.toml --replace").status, 0);
+  EXPECT_NE(file_text(folder_ / "mine.toml").find("Sorbus aucuparia"), std::string::npos);
 }
 
 }  // namespace

@@ -292,7 +292,7 @@ TEST_F(Commands, AGalleryIsAPictureOfItsSize) {
 
 TEST_F(Commands, AnInterruptEndsCleanlyWithStatusTwoAndNoHalfFile) {
   write("large.toml",
-        "[site]\nsize_m = [100, 100]\n[[planting]]\nspecies = { english_oak = 1 }\ncount = 200\nscale = [0.8, 1.0]\n");
+        "[site]\nsize_m = [300, 300]\n[[planting]]\nspecies = { english_oak = 1 }\ncount = 1500\nscale = [0.8, 1.0]\n");
   // Not before the program catches the signal, which a shell lets its background jobs ignore.
   const Ran ran = shell(std::string("'") + BOSQUET_PROGRAM +
                         "' make large.toml -o large.glb --quiet & pid=$!; "

@@ -125,7 +125,10 @@ TEST(TreeImport, EverySubstitutionIsNamedOnceWithItsCount) {
   EXPECT_TRUE(
       warns(made.warnings, "'Acer rubrum' is not a known species; 2 trees are drawn as norway_maple, of its genus"));
   EXPECT_TRUE(warns(made.warnings, "'Abies alba' is not a known species; 1 tree is drawn as norway_spruce, a conifer"));
-  EXPECT_TRUE(warns(made.warnings, "'(no name)' is not a known species; 1 tree is drawn as english_oak"));
+  EXPECT_TRUE(warns(made.warnings,
+                    "1 tree is drawn as english_oak for want of any name; another species is set by default_species"));
+  EXPECT_EQ(made.tally.nameless, 1u);
+  EXPECT_NE(words(made.tally, false).find("; 1 without a name, drawn as english_oak"), std::string::npos);
   EXPECT_TRUE(warns(made.warnings, "'Ginkgo' is not a known species; 1 tree is drawn as english_oak"));
   EXPECT_EQ((*made.document.trees)[1].inventory_name, "Acer rubrum");
 }

@@ -209,7 +209,7 @@ TEST_F(Import, ASavedTreeComesIntoTheHandWithItsSpecies) {
   EXPECT_NE(unknown.error().message.find("triffid"), std::string::npos);
 }
 
-TEST_F(Import, APlanPictureIsAsWideAsTheSiteAtFirst) {
+TEST_F(Import, APlanPictureIsAsWideAsTheSiteAtFirstOrLiesWhereItsWorldFileSays) {
   const auto meadow = make_template("Meadow");
   ASSERT_TRUE(meadow);
   ASSERT_TRUE(exchange::write_image(folder_ / "plan.png", Image(20, 10, 3)));
@@ -218,6 +218,14 @@ TEST_F(Import, APlanPictureIsAsWideAsTheSiteAtFirst) {
   EXPECT_EQ(edit->document.underlay.file, (folder_ / "plan.png").string());
   EXPECT_EQ(edit->document.underlay.width_m, meadow->terrain->size_m().x);
   EXPECT_FALSE(import_file(*meadow, ImportKind::underlay, write("no.png", "no picture")));
+  // A world file beside it tells its place.
+  const auto image = exchange::read_image(folder_ / "plan.png");
+  ASSERT_TRUE(image);
+  write("plan.pgw", fmt::format("0.5\n0\n0\n-0.5\n10.25\n{}\n", 5 + 0.5 * image->height - 0.25));
+  const auto laid = import_file(*meadow, ImportKind::underlay, folder_ / "plan.png");
+  ASSERT_TRUE(laid) << laid.error().message;
+  EXPECT_EQ(laid->document.underlay.south_west, DVec2(10, 5));
+  EXPECT_FLOAT_EQ(laid->document.underlay.width_m, 0.5f * static_cast<float>(image->width));
 }
 
 TEST_F(Import, AnExportIsAsLargeAsItWasToldToBe) {

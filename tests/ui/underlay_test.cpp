@@ -69,5 +69,16 @@ TEST(Underlay, APictureThatShowsWeaklyIsNearerToTheMeadow) {
   EXPECT_FALSE(read_underlay({file.string(), {}, 10, 1}));
 }
 
+TEST(Underlay, IsScaledByAKnownLengthAboutTheFirstPoint) {
+  const scene::Underlay before{"plan.png", {10, -20}, 80, 0.5f};
+  const Vec2 a(30, 20), b(33, 24);  // 5 m apart on it
+  const scene::Underlay after = scaled_to(before, a, b, 12.5);
+  EXPECT_FLOAT_EQ(after.width_m, 200);
+  EXPECT_EQ(after.south_west, DVec2(30 - 2.5 * 20, 20 - 2.5 * 40));
+  EXPECT_EQ(after.file, before.file);
+  EXPECT_EQ(scaled_to(before, a, a, 12.5), before);
+  EXPECT_EQ(scaled_to(before, a, b, 0), before);
+}
+
 }  // namespace
 }  // namespace bosquet::ui

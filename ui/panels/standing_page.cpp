@@ -7,6 +7,7 @@
 #include "scene/site_edits.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/standing_edits.h"
+#include "ui/underlay.h"
 #include "ui/widgets/fields.h"
 #include "ui/widgets/slider.h"
 
@@ -90,6 +91,20 @@ void Panels::underlay_fields(App& app) {
   bool changed = length_field("Width", width, s.settings.units, "Of the picture on the ground; its height follows");
   changed |= length_field("East", underlay.south_west.x, s.settings.units, "Of its south-west corner from the site's");
   changed |= length_field("North", underlay.south_west.y, s.settings.units, "Of its south-west corner from the site's");
+  if (const auto& line = s.settings.measured) {
+    double length = static_cast<double>(glm::length(line->second - line->first));
+    if (length_field("Measured", length, s.settings.units,
+                     "Type how long the line measured last really is: the picture is scaled to it")) {
+      underlay = scaled_to(underlay, line->first, line->second, length);
+      width = static_cast<double>(underlay.width_m);
+      s.settings.measured.reset();
+      changed = true;
+    }
+    mark(app, "Measured");
+  } else {
+    ImGui::TextDisabled("To scale it, measure on it (M)");
+    explain("Measure a length that you know, end with Enter, and type here how long it really is");
+  }
   ImGui::PopItemWidth();
   static float opacity = -1;
   float shown = opacity >= 0 ? opacity : underlay.opacity;

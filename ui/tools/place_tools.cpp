@@ -189,4 +189,9 @@ Preview MeasureTool::preview(const ToolScene& scene) const {
   return preview;
 }
 
+ToolAnswer MeasureTool::finish(const std::vector<Vec2>& line, const ToolScene& scene) {
+  scene.settings->measured = {line.front(), line.back()};
+  return {};
+}
+
 }  // namespace bosquet::ui

@@ -74,7 +74,7 @@ class AreaTool : public PathTool {
   bool grid_;
 };
 
-/// Distances, along a line clicked point by point; an outline's area when it is closed.
+/// Distances, along a line clicked point by point, and the area that it encloses; its ends are kept in the settings.
 class MeasureTool : public PathTool {
  public:
   MeasureTool() : PathTool(false, 2) {}
@@ -85,7 +85,7 @@ class MeasureTool : public PathTool {
     count = 0;
     return {};
   }
-  ToolAnswer finish(const std::vector<Vec2>&, const ToolScene&) override { return {}; }
+  ToolAnswer finish(const std::vector<Vec2>& line, const ToolScene& scene) override;
 };
 
 }  // namespace bosquet::ui

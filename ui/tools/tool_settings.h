@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/parameter.h"
 #include "distribution/rows.h"
@@ -49,7 +50,8 @@ struct ToolSettings {
   std::size_t species = 0;  ///< of single trees
   std::optional<HeroInHand> hero;
   float hero_turn_deg = 0.0f;
-  float water_level_m = 0.0f;  ///< last one set
+  float water_level_m = 0.0f;                     ///< last one set
+  std::optional<std::pair<Vec2, Vec2>> measured;  ///< ends of the line measured last, plan
 };
 
 }  // namespace bosquet::ui
