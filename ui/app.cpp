@@ -373,6 +373,15 @@ void App::draw_overlays() {
   const ImU32 bright = IM_COL32(255, 255, 255, 230), dark = IM_COL32(0, 0, 0, 120),
               green = IM_COL32(150, 220, 110, 255);
 
+  // Words that stand out from snow as from shade.
+  const auto write = [&](ImVec2 at, const std::string& words) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    const float pad = 4 * scale_;
+    draw->AddRectFilled({at.x - pad, at.y - 0.5f * pad}, {at.x + size.x + pad, at.y + size.y + 0.5f * pad},
+                        IM_COL32(24, 28, 25, 150), 4 * scale_);
+    draw->AddText(at, bright, words.c_str());
+  };
+
   constexpr std::size_t kMostRings = 400;
   std::size_t rings = 0;
   for (const std::int32_t id : session_->selection()) {
@@ -410,8 +419,7 @@ void App::draw_overlays() {
     ring(preview.ring->centre, preview.ring->radius_m, bright, 1.6f * scale_);
     if (tool_info(session_->tool_kind()).has_radius)
       if (const auto p = place(on_ground(preview.ring->centre + Vec2(preview.ring->radius_m, 0.0f))))
-        draw->AddText({p->x + 6 * scale_, p->y}, bright,
-                      length_words(preview.ring->radius_m, session_->settings.units).c_str());
+        write({p->x + 6 * scale_, p->y}, length_words(preview.ring->radius_m, session_->settings.units));
   }
   std::vector<ImVec2> line;
   for (Vec2 p : preview.line)
@@ -429,8 +437,7 @@ void App::draw_overlays() {
     for (Vec2 p : preview.outline) points.push_back({view_low_.x + p.x, view_low_.y + p.y});
     draw->AddPolyline(points.data(), static_cast<int>(points.size()), bright, ImDrawFlags_Closed, 1.5f * scale_);
   }
-  if (!preview.label.empty() && shown)
-    draw->AddText({pointer_.x + 16 * scale_, pointer_.y + 8 * scale_}, bright, preview.label.c_str());
+  if (!preview.label.empty() && shown) write({pointer_.x + 16 * scale_, pointer_.y + 8 * scale_}, preview.label);
   draw->PopClipRect();
 }
 
