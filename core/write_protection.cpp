@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <string>
+#include <utility>
+
 namespace bosquet {
 
 Result<void> check_replaceable(const std::filesystem::path& target) {
@@ -13,7 +16,9 @@ Result<void> check_replaceable(const std::filesystem::path& target) {
   const bool nobody =
       (there.permissions() & (perms::owner_write | perms::group_write | perms::others_write)) == perms::none;
   if (!nobody && ::access(target.c_str(), W_OK) == 0) return {};
-  return Error{"cannot write " + target.string() + ": it is read-only; make it writable or take another name"};
+  std::string message("cannot write ");
+  message.append(target.string()).append(": it is read-only; make it writable or take another name");
+  return Error{std::move(message)};
 }
 
 }  // namespace bosquet
