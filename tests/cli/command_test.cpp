@@ -293,10 +293,11 @@ TEST_F(Commands, AGalleryIsAPictureOfItsSize) {
 TEST_F(Commands, AnInterruptEndsCleanlyWithStatusTwoAndNoHalfFile) {
   write("large.toml",
         "[site]\nsize_m = [300, 300]\n[[planting]]\nspecies = { english_oak = 1 }\ncount = 1500\nscale = [0.8, 1.0]\n");
-  // Not before the program catches the signal, which a shell lets its background jobs ignore.
+  // Not before it is the program that catches the signal, which a shell lets its background jobs ignore.
   const Ran ran = shell(std::string("'") + BOSQUET_PROGRAM +
                         "' make large.toml -o large.glb --quiet & pid=$!; "
-                        "until grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.02; done; "
+                        "until grep -q '^Name:.bosquet$' /proc/$pid/status && "
+                        "grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.02; done; "
                         "sleep 0.3; kill -INT $pid; wait $pid");
   EXPECT_EQ(ran.status, 2) << ran.err;
   EXPECT_NE(ran.err.find("cancelled"), std::string::npos) << ran.err;
