@@ -13,10 +13,10 @@
 namespace bosquet::geometry {
 namespace {
 
-const std::vector<std::string> kSpecies{"english_oak", "silver_birch", "norway_spruce", "weeping_willow"};
+const std::vector<std::string> kBarks{"english_oak", "silver_birch", "norway_spruce", "weeping_willow"};
 
 class Bark : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Species, Bark, testing::ValuesIn(kSpecies), [](const auto& species) { return species.param; });
+INSTANTIATE_TEST_SUITE_P(Species, Bark, testing::ValuesIn(kBarks), [](const auto& species) { return species.param; });
 
 TEST_P(Bark, TilesInBothDirections) {
   const BarkTextures bark = make_bark(species_look(GetParam()), 11, 256);
@@ -55,7 +55,7 @@ TEST_P(Bark, OldTrunksHaveAboutTheColourTheSpeciesGives) {
 TEST(BarkTexture, TheFourSpeciesDiffer) {
   std::vector<Vec3> means;
   std::vector<double> upright;  // how much more the picture changes across the trunk than along it
-  for (const std::string& name : kSpecies) {
+  for (const std::string& name : kBarks) {
     const Look look = species_look(name);
     const Image image = make_bark(look, 7, 256).base_colour;
     means.push_back(mean_linear(image) * bark_tint(look, 3.0f, 10.0f));
@@ -72,7 +72,7 @@ TEST(BarkTexture, TheFourSpeciesDiffer) {
 }
 
 TEST(BarkTint, IsAFactorThatMakesThickWoodOldAndThinWoodTwig) {
-  for (const std::string& name : kSpecies) {
+  for (const std::string& name : kBarks) {
     const Look look = species_look(name);
     const Vec3 reference = bark_reference(look);
     for (const float diameter : {0.0f, 0.001f, 0.01f, 0.05f, 0.2f, 1.0f, 5.0f}) {
