@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kHeights{"height", "height_m", "hoehe", "hoehe_m", "building:height", "building_h", "bldg_height"};
 constexpr std::array kLevels{"building:levels", "levels", "storeys", "floors"};
 constexpr double kLevel_m = 3.0, kMostHeight_m = 1000.0;
-constexpr std::size_t kListed = 3;  // heights in a note
+constexpr std::size_t kListedHeights = 3;  // heights in a note
 
 struct HeightText {
   std::optional<double> metres;
@@ -56,14 +56,14 @@ Result<Footprints> read_footprints(const std::filesystem::path& path, const scen
   for (Shape& shape : shapes->all) {
     const HeightText height = height_of(shape);
     std::string name = shape.name.empty() ? fmt::format("building {}", out.all.size() + 1) : std::move(shape.name);
-    if (!height.metres && !height.refused.empty() && ++refused <= kListed)
+    if (!height.metres && !height.refused.empty() && ++refused <= kListedHeights)
       examples += fmt::format("{}'{}' of {}", examples.empty() ? "" : ", ", height.refused, name);
     Footprint& print = out.all.emplace_back(Footprint{std::move(name), std::move(shape.polygon), {}});
     if (height.metres) print.height_m = static_cast<float>(*height.metres);
   }
   if (refused > 0)
     out.notes.push_back(fmt::format("{} heights are no numbers above 0 ({}{}); height_m of the recipe is taken",
-                                    refused, examples, refused > kListed ? ", ..." : ""));
+                                    refused, examples, refused > kListedHeights ? ", ..." : ""));
   return out;
 }
 

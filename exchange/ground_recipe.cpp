@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "core/hash.h"
+#include "exchange/site_frame.h"
 
 namespace bosquet::exchange {
 namespace {
 
 using scene::TomlTable;
-
-constexpr float kFarthest_m = 1e6f;
 
 std::vector<Vec2> near_points(TomlTable& table, std::string_view key, std::size_t least) {
   auto points = table.points(key);

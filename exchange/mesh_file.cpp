@@ -16,9 +16,9 @@
 namespace bosquet::exchange {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 31;
+constexpr std::uintmax_t kMostMeshBytes = std::uintmax_t{1} << 31;
 constexpr std::size_t kMostTriangles = 20'000'000;
-constexpr int kMostDepth = 64;
+constexpr int kMostNodeDepth = 64;
 
 // A corner of each triangle; faces get their normals at the end.
 struct Soup {
@@ -139,7 +139,7 @@ class GltfReader {
  private:
   Result<void> visit(int index, const glm::dmat4& above, int depth) {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) return damaged("a node that is not there");
-    if (depth > kMostDepth) return damaged("nodes nested too deep, or in a ring");
+    if (depth > kMostNodeDepth) return damaged("nodes nested too deep, or in a ring");
     if (visited_.empty()) visited_.resize(model_.nodes.size());
     if (visited_[static_cast<std::size_t>(index)]) return damaged("a node with two parents");
     visited_[static_cast<std::size_t>(index)] = true;
@@ -251,8 +251,8 @@ Result<TriangleMesh> read_mesh(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, failed)) return Error{fmt::format("there is no file {}", path.string())};
   if (!std::filesystem::is_regular_file(path, failed))
     return Error{fmt::format("cannot read {}: it is no regular file", path.string())};
-  if (std::filesystem::file_size(path, failed) > kMostBytes)
-    return Error{fmt::format("{} is larger than {} GiB", path.string(), kMostBytes >> 30)};
+  if (std::filesystem::file_size(path, failed) > kMostMeshBytes)
+    return Error{fmt::format("{} is larger than {} GiB", path.string(), kMostMeshBytes >> 30)};
   const std::string ending = folded_letters(path.extension().string());
   if (ending == ".obj") return ObjReader(path).read();
   if (ending == ".glb" || ending == ".gltf") return GltfReader(path).read();

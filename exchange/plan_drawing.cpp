@@ -60,7 +60,7 @@ Style style_of(TreeStatus status) {
   return {{0.18f, kInk, Dashes::none}, 0.40f};
 }
 
-constexpr std::string_view kStatusWords[] = {"Proposed", "Existing", "To be removed", "Protected, with its roots"};
+constexpr std::string_view kStatusLabels[] = {"Proposed", "Existing", "To be removed", "Protected, with its roots"};
 constexpr std::string_view kStatusLayers[] = {"PROPOSED", "EXISTING", "REMOVE", "PROTECTED"};
 constexpr int kStatusColours[] = {3, 94, 1, 30};
 constexpr TreeStatus kDrawn[] = {TreeStatus::to_remove, TreeStatus::existing, TreeStatus::to_protect,
@@ -306,7 +306,8 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
     const std::string common = species.common_names.empty() ? std::string() : species.common_names.front();
     const std::string own = species.botanical_name.empty() ? species.name : species.botanical_name;
     trees.rows.push_back({key_sample(style_of(TreeStatus::proposed), symbols[place], false), codes[place], names[place],
-                          std::get<2>(kind) ? "drawn as " + own : common, fmt::format("{}", count), !std::get<2>(kind)});
+                          std::get<2>(kind) ? "drawn as " + own : common, fmt::format("{}", count),
+                          !std::get<2>(kind)});
     ++place;
   }
   for (const auto& [status, count] : totals) {
@@ -320,7 +321,7 @@ Result<PlanDrawing> draw_plan(const scene::GrownScene& grown, const std::string&
     }
     status_part.rows.push_back({std::move(sample),
                                 {},
-                                std::string(kStatusWords[static_cast<std::size_t>(status)]),
+                                std::string(kStatusLabels[static_cast<std::size_t>(status)]),
                                 {},
                                 fmt::format("{}", count)});
   }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "exchange/reference_system.h"
+#include "exchange/site_frame.h"
 #include "scene/species_names.h"
 #include "scene/toml_table.h"
 
@@ -345,7 +346,6 @@ class Reader {
     }
     if (auto ring = table.points("polygon")) {
       if (ring->size() < 3) table.error("polygon", "a polygon needs at least three points");
-      constexpr float kFarthest_m = 1e6f;
       for (const Vec2& p : *ring)
         if (std::fabs(p.x) > kFarthest_m || std::fabs(p.y) > kFarthest_m)
           table.error("polygon", "a point lies more than 1000 km away");

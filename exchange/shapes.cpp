@@ -20,8 +20,7 @@ namespace {
 
 constexpr std::size_t kMostPoints = 20'000'000;
 // So far away metres are lost in a float.
-constexpr double kFarthest_m = 1e6;
-constexpr std::size_t kListed = 3;  // names in a note
+constexpr std::size_t kListedNames = 3;  // names in a note
 
 // What a feature holds, in the file's coordinates: the points of its rings one after another.
 struct Outline {
@@ -167,8 +166,8 @@ std::optional<Polygon> polygon_of(const Rings& rings) {
 
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
-  for (std::size_t i = 0; i < std::min(kListed, names.size()); ++i) out += (i ? ", " : "") + names[i];
-  return names.size() > kListed ? out + fmt::format(" and {} more", names.size() - kListed) : out;
+  for (std::size_t i = 0; i < std::min(kListedNames, names.size()); ++i) out += (i ? ", " : "") + names[i];
+  return names.size() > kListedNames ? out + fmt::format(" and {} more", names.size() - kListedNames) : out;
 }
 
 }  // namespace
@@ -266,7 +265,7 @@ Result<Shapes> read_shapes(const std::filesystem::path& path, const scene::Geore
       }
       const bool cut_it = options.size_m && options.clip && outline.polygon;
       const auto usable = [&](const DVec2& p) {
-        const double most = cut_it ? 1e9 : kFarthest_m;
+        const double most = cut_it ? 1e9 : static_cast<double>(kFarthest_m);
         return std::fabs(p.x) <= most && std::fabs(p.y) <= most;  // NaN is not
       };
       const bool all_usable = std::all_of(rings.begin(), rings.end(), [&](const std::vector<DVec2>& ring) {

@@ -23,6 +23,8 @@
 namespace bosquet::exchange {
 
 inline constexpr double kTrueScale = 0.005;
+/// From the site's corner: what claims to lie farther away is a mistake.
+inline constexpr float kFarthest_m = 1e6f;
 
 struct FrameOf {
   std::string crs_wkt;          ///< of the file; empty when unknown

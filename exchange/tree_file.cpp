@@ -14,8 +14,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr int kFormat = 1, kMostDepth = 8;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr int kFormat = 1, kMostJsonDepth = 8;
+constexpr std::uint64_t kMostTreeBytes = std::uint64_t{1} << 30;
 constexpr std::size_t kMostInternodes = 5'000'000;
 constexpr double kMostSize_m = 1000.0, kMostRadius_m = 5.0, kMostNumber = 1e9;
 
@@ -62,7 +62,7 @@ class Reader {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     const OrderedJson json = OrderedJson::parse(
         text, text + bytes.size(),
-        [&](int depth, OrderedJson::parse_event_t, OrderedJson&) { return !(deep = deep || depth > kMostDepth); },
+        [&](int depth, OrderedJson::parse_event_t, OrderedJson&) { return !(deep = deep || depth > kMostJsonDepth); },
         false);
     if (deep) return wrong("it is nested deeper than a tree is");
     if (!json.is_object() || !json.contains("bosquet_tree")) return wrong("it is no tree that bosquet saved");
@@ -190,7 +190,7 @@ Result<std::uint64_t> write_tree(const SavedTree& tree, const growth::Parameters
 }
 
 Result<SavedTree> read_tree(const std::filesystem::path& path) {
-  auto bytes = read_file(path, kMostBytes);
+  auto bytes = read_file(path, kMostTreeBytes);
   if (!bytes) return bytes.error();
   return Reader(path).read(*bytes);
 }

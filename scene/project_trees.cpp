@@ -376,7 +376,7 @@ struct TextSource {
 };
 
 // Sizes beyond these are nobody's tree.
-constexpr float kLeastScale = 0.001f, kMostScale = 100.0f;
+constexpr float kLeastKeptScale = 0.001f, kMostKeptScale = 100.0f;
 
 class TreeReader {
  public:
@@ -413,7 +413,7 @@ class TreeReader {
     std::string wrong = source.wrong_columns;
     const auto mistake = [&](const char* name) { add_word(wrong, name); };
     for (float* scale : {&tree.scale_height, &tree.scale_width})
-      if (!(*scale >= kLeastScale && *scale <= kMostScale)) *scale = 1.0f, mistake("scale");
+      if (!(*scale >= kLeastKeptScale && *scale <= kMostKeptScale)) *scale = 1.0f, mistake("scale");
     if (place_[2] >= 0) {
       const auto found = species_.find(std::string(row.text(place_[2])));
       if (found != species_.end())
