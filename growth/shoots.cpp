@@ -296,9 +296,9 @@ bool choose_growing(Tree& tree) {
       const Way way = b.state == BudState::terminal ? kMain : kLateral;
       b.flow = node.rate[way] * share[way];
     }
-    greatest = std::max(greatest, has_space ? b.flow : 0.0f);
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
     const bool may_grow = has_space | (b.node < 0);
+    greatest = std::max(greatest, may_grow ? b.flow : 0.0f);
     tree.enabled[enabled] = bud, enabled += may_grow;
     b.idle = static_cast<std::uint16_t>(b.idle + !may_grow);
     if (b.idle >= life) starve(b);

@@ -5,7 +5,8 @@
 //             v_m = v * lambda*Q_m / (lambda*Q_m + (1 - lambda)*Q_l),     v_l = v - v_m
 // Decision  every living bud reports Q; several laterals at a node share v_l in proportion to their Q; v at the root is
 //           Q at the root; when nothing reports, both shares are 0
-// Decision  shedding compares vigor and size of a branch as they are here, its size in internodes
+// Decision  shedding compares vigor and size of a branch as they are here, its size in internodes; a tree whose own tip
+//           stands in deep shade asks less of its branches, or it would drop them all
 // Decision  internodes that bear nothing to a side are left out: what passes them is not changed (tree.h)
 // Cost      one backward and one forward sweep over the other living internodes, no allocation
 #include <algorithm>
@@ -46,6 +47,18 @@ void pass_over_bare(Tree& tree) {
   tree.thinned.clear();
 }
 
+constexpr float kShaded = 0.5f;  ///< signal of a trunk's tip below which its tree counts as shaded
+
+/// The part of its threshold that a branch must earn to stay.
+float asked(const Tree& tree) {
+  float best = 0.0f;
+  for (int stem = 0; stem < tree.parameters->stems; ++stem) {
+    best = std::max(best, tree.buds[static_cast<std::size_t>(tree.tip_of[static_cast<std::size_t>(stem)])].signal);
+  }
+  const float share = best / kShaded;
+  return share < 1.0f ? share * share : 1.0f;
+}
+
 struct OrderNumbers {
   float lambda, rest, shedding;  ///< rest is 1 - lambda
 };
@@ -79,9 +92,10 @@ void share_vigor(Tree& tree) {
 
   // Up: v at the root is Q at the root, so stems share it as they reported. Nothing waits for the next season's signal.
   std::array<OrderNumbers, kOrders> numbers{};
+  const float due = asked(tree);
   for (std::size_t order = 0; order < kOrders; ++order) {
     const Habit& habit = tree.habits[order];
-    numbers[order] = {habit.lambda, 1.0f - habit.lambda, habit.shedding};
+    numbers[order] = {habit.lambda, 1.0f - habit.lambda, due * habit.shedding};
   }
   tree.failing.resize(listed);
   std::int32_t* const failing = tree.failing.data();

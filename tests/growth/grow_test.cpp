@@ -227,6 +227,32 @@ TEST(Grow, InAShaftBetweenNeighboursATreeGrowsUpToItsHeightAndStaysNearlyUpright
   }
 }
 
+TEST(Grow, ATreeWhoseFootHasNoRoomGrowsIntoTheRoomAbove) {
+  const Parameters p = sample_parameters();
+  const crowns::CrownRegion above =
+      region_where(2.0f, 14.0f, [](const Vec3& q) { return q.y > 1.0f && q.x * q.x + q.z * q.z < 2.0f; });
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    input.region = &above;
+    EXPECT_GE(measure(grow(input)).height_m, 0.8f * input.max_height_m) << "seed " << seed;
+  }
+}
+
+TEST(Grow, ATreeInDeepShadeKeepsALivingTop) {
+  Parameters p = sample_parameters();
+  p.shedding_threshold = 0.55f;
+  const Transmittance shade{{-6.0f, 0.0f, -6.0f}, 12.0f, {1, 2, 1}, {1, 1}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    GrowthInput input = sample_input(p, seed);
+    input.light = &shade;
+    const Skeleton s = grow(input);
+    const float height = measure(s).height_m;
+    int top = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) top += s.alive(i) && s.order[i] > 0 && s.distal[i].y > 0.8f * height;
+    EXPECT_GE(top, 10) << "seed " << seed;
+  }
+}
+
 TEST(Grow, InternodesEndInTheirRegionOrJustOutside) {
   const Parameters p = sample_parameters();
   const auto inside = [](const Vec3& v) { return v.x * v.x + v.z * v.z < 2.0f * 2.0f; };
