@@ -61,7 +61,7 @@ void Ground(benchmark::State& state) {
   std::size_t triangles = 0;
   for (auto _ : state) {
     triangles = 0;
-    for (const TriangleMesh& chunk : mesh_ground(t, {})) triangles += chunk.triangles();
+    for (const GroundPiece& piece : mesh_ground(t, {})) triangles += piece.mesh.triangles();
   }
   count_triangles(state, triangles);
 }

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "cli/human_figure.h"
 #include "cli/sheet.h"
 #include "core/parallel.h"
+#include "geometry/human_figure.h"
 #include "growth/age.h"
 #include "growth/grow.h"
 #include "growth/radii.h"
@@ -270,7 +270,7 @@ Result<scene::Model> row_model(const Row& row, const std::vector<Place>& places,
   ink.surface = scene::Surface::obstacle;
   ink.base_factor = kFigureColour;
   model.materials.push_back(std::move(ink));
-  const auto figure = std::make_shared<const TriangleMesh>(human_figure());
+  const auto figure = std::make_shared<const TriangleMesh>(geometry::human_figure());
   for (const Place& place : places) {
     if (!place.leafed || place.stage != &place.portrait->stages.front()) continue;
     scene::Node node;

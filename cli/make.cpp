@@ -155,6 +155,9 @@ bool some_output(const Options& options, const auto& fits) {
   return std::any_of(options.outputs.begin(), options.outputs.end(), fits);
 }
 
+// What a picture may take where no budget is asked for.
+constexpr std::size_t kPictureTriangles = 6'000'000;
+
 bool grows_meshes(const Options& options) {
   return some_output(options, [](const path& p) { return is_made_of_meshes(p); });
 }
@@ -176,6 +179,13 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
       grown->space = {}, grown->light = {};
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
+    // A model for a picture alone is made for what is seen in it, and files keep to their budget.
+    if (!some_output(options, [](const path& p) { return format_of(p)->model && format_of(p)->write != write_png; })) {
+      model.picture = picture_camera(grown->document, options);
+      model.picture_height = options.height;
+      if (!options.max_triangles && model.max_triangles > 0)
+        model.max_triangles = std::max(model.max_triangles, kPictureTriangles);
+    }
     const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
     model.paintings = &paintings;
     model.wind = options.wind;

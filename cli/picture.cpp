@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/human_figure.h"
 #include "exchange/image_file.h"
+#include "geometry/human_figure.h"
 #include "render/framing.h"
 #include "render/headless_context.h"
 #include "render/renderer.h"
@@ -37,19 +37,21 @@ render::View plan_view(const scene::Model& model, const Options& options) {
   return view;
 }
 
-// The model with the people for scale that are asked for.
+// The model with the people for scale that the document has and that are asked for.
 scene::Model with_figures(scene::Model model, const scene::Document& document, const Options& options) {
   scene::Material ink;
   ink.name = "figure";
   ink.surface = scene::Surface::obstacle;
   ink.base_factor = kWalkerColour;
   model.materials.push_back(std::move(ink));
-  const auto mesh = std::make_shared<const TriangleMesh>(human_figure());
-  for (const Vec2 at : options.figures) {
+  std::vector<scene::Figure> figures(document.figures.begin(), document.figures.end());
+  for (const Vec2 at : options.figures) figures.push_back({at, geometry::kFigureHeading_deg});
+  for (const scene::Figure& figure : figures) {
     scene::Node node;
     node.name = "figure";
-    node.translation = to_world(at, document.terrain->ground(at));
-    node.parts.push_back({mesh, model.materials.size() - 1});
+    node.translation = to_world(figure.at, document.terrain->ground(figure.at));
+    node.parts.push_back(
+        {std::make_shared<const TriangleMesh>(geometry::human_figure(figure.heading_deg)), model.materials.size() - 1});
     model.nodes.push_back(std::move(node));
   }
   return model;
@@ -88,6 +90,15 @@ scene::Camera usual_camera(const scene::Model& model, const Options& options) {
 }
 
 }  // namespace
+
+std::optional<scene::Camera> picture_camera(const scene::Document& document, const Options& options) {
+  scene::Model cameras;
+  cameras.cameras = document.cameras;
+  if (!options.camera.empty())
+    if (auto camera = render::camera_from_text(options.camera, cameras)) return *camera;
+  if (!document.cameras.empty()) return document.cameras.front();
+  return {};
+}
 
 Result<void> check_picture_options(const scene::Document& document, const Options& options) {
   scene::Model cameras;
@@ -131,8 +142,9 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   if (!context) return context.error();
   auto renderer = render::Renderer::create();
   if (!renderer) return renderer.error();
-  if (auto uploaded =
-          options.figures.empty() ? renderer->upload(model) : renderer->upload(with_figures(model, document, options));
+  if (auto uploaded = options.figures.empty() && document.figures.empty()
+                          ? renderer->upload(model)
+                          : renderer->upload(with_figures(model, document, options));
       !uploaded)
     return uploaded;
   auto image = renderer->draw(view);

@@ -40,6 +40,7 @@ class Reader {
     for (TomlTable& table : root.tables("hero"))
       if (auto read = read_hero(table); !read) return read;
     for (TomlTable& table : root.tables("camera")) read_camera(table);
+    for (TomlTable& table : root.tables("figure")) read_figure(table);
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("clearance")) describe(recipe_.document.clearance, *table), table->finish();
     if (auto table = root.table("plan")) describe(recipe_.document.plan, *table), table->finish();
@@ -427,6 +428,17 @@ class Reader {
     camera.on_ground = table.boolean("on_ground").value_or(true);
     table.finish();
     recipe_.cameras.push_back(std::move(camera));
+  }
+
+  void read_figure(TomlTable& table) {
+    scene::Figure figure;
+    if (auto at = table.numbers("at", 2))
+      figure.at = {static_cast<float>((*at)[0]), static_cast<float>((*at)[1])};
+    else if (!table.has("at"))
+      table.error("", "a [[figure]] needs at = [east, north]");
+    figure.heading_deg = static_cast<float>(table.number("heading_deg", -360, 360).value_or(figure.heading_deg));
+    table.finish();
+    recipe_.figures.push_back(figure);
   }
 
   void read_sun(TomlTable& table) {

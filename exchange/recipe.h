@@ -123,6 +123,7 @@ struct Recipe {
   std::vector<ObstacleRecipe> obstacles;
   std::vector<HeroRecipe> heroes;
   std::vector<CameraRecipe> cameras;
+  std::vector<scene::Figure> figures;
   CounterRecipe counters;
   FromWorldFile underlay_from_world_file{false, false};  ///< what the recipe leaves to it
 };

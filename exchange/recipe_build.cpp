@@ -446,6 +446,13 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
     if (auto laid = lay_by_world_file(document.underlay, wanted, document.place, size, built.warnings); !laid)
       return Error{fmt::format("{}: [underlay] {}", recipe.file.string(), laid.error().message)};
   }
+  const Vec2 size = document.terrain->size_m();
+  for (const scene::Figure& figure : recipe.figures)
+    if (!terrain::on_site(*document.terrain, figure.at))
+      return Error{
+          fmt::format("{}: [[figure]] at [{:g}, {:g}] lies outside the site, which is {:g} m east by {:g} m north",
+                      recipe.file.string(), figure.at.x, figure.at.y, size.x, size.y)};
+  document.figures = recipe.figures;
   document.interactions = recipe.interactions;
   scene::settle_counters(document);
   // What was given once stays given, though it be gone.

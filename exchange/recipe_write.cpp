@@ -160,8 +160,8 @@ class RecipeText {
     std::error_code ec;
     std::filesystem::create_directories(folder_, ec);
     if (ec) return Error{fmt::format("{}: cannot be made ({})", folder_.string(), ec.message())};
-    for (const auto step :
-         {&RecipeText::site, &RecipeText::species, &RecipeText::trees, &RecipeText::obstacles, &RecipeText::heroes, &RecipeText::settings})
+    for (const auto step : {&RecipeText::site, &RecipeText::species, &RecipeText::trees, &RecipeText::obstacles,
+                            &RecipeText::heroes, &RecipeText::settings})
       if (auto done = (this->*step)(); !done) return done.error();
     if (auto done = put(target_, text_); !done) return done.error();
     return std::move(out_);
@@ -303,6 +303,8 @@ class RecipeText {
       text_ +=
           fmt::format("\n[[camera]]\nname = {}\neye = {}\ntarget = {}\non_ground = false\nfov_deg = {}\n",
                       toml_text(camera.name), place(camera.eye), place(camera.target), number(camera.vertical_fov_deg));
+    for (const scene::Figure& figure : d_.figures)
+      text_ += fmt::format("\n[[figure]]\nat = {}\nheading_deg = {}\n", point(figure.at), number(figure.heading_deg));
     text_ += table("clearance", d_.clearance) + table("plan", d_.plan);
     if (const scene::Underlay& underlay = d_.underlay; !underlay.file.empty()) {
       TomlText keys{"underlay", {}, {}};

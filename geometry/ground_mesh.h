@@ -1,15 +1,14 @@
-// Ground mesh: the terrain as triangles, and the water that stands on it.
+// Ground mesh: the terrain as triangles, apart by what covers them.
 //
-// Model     heights are read on a square grid of one step, the smallest multiple of the terrain's cell that keeps to
-//           the budget; normals are the heightfield's. Water covers, cell by cell, the part of each ground triangle
-//           that lies below the level (exact clip), so both meet along one line; a pond's own level is held by the
-//           cells that its outline touches
-// Colour    linear, tints the ground texture (ground_tint() of ground_texture.h): meadow, the areas' covers (gravel,
-//           paving, lawn, soil) where planting is excluded, forest floor under trees where the caller says so, wet
-//           sand at the water's edge, mud below
+// Model     heights are read on a ground grid (geometry/ground_grid.h); normals are the heightfield's. Where covers meet
+//           (gravel, paving, lawn, soil where planting is barred, meadow elsewhere) the triangles are cut along the line
+//           between them; cells of a grid coarser than the terrain's are parted for that as finely as the budget allows
+// Colour    linear, tints the covers' textures, which share a mean (ground_tint() of ground_texture.h): meadow, forest
+//           floor under trees where the caller says so, soil on steep ground, the covers' colours, wet sand at the
+//           water's edge, mud below
 // UV        metres / kGroundTileM, u east, v south
 // Frame     world (x east, y up, z = -north)
-// Holds     triangles are counter-clockwise seen from above; chunks meet without gap (shared edge samples)
+// Holds     triangles are counter-clockwise seen from above; pieces meet without gap (shared samples and cuts)
 #pragma once
 
 #include <functional>
@@ -21,19 +20,22 @@
 namespace bosquet::geometry {
 
 struct GroundOptions {
-  std::size_t max_triangles = 200'000;  ///< of the surface, without skirt; at least 2
-  int chunk_cells = 128;                ///< steps along a side of one chunk
-  float skirt_m = 0.0f;                 ///< a wall down from the site's edge to so far below its lowest point; 0 none
-  std::function<float(Vec2)> shade;     ///< share 0..1 of forest floor at a plan position; may be missing
+  std::size_t max_triangles =
+      200'000;                       ///< of the surface, without skirt; at least 2. Many lines may take a little more
+  int chunk_cells = 128;             ///< steps along a side of one chunk
+  float skirt_m = 0.0f;              ///< a wall down from the site's edge to so far below its lowest point; 0 none
+  std::function<float(Vec2)> shade;  ///< share 0..1 of forest floor at a plan position; may be missing
 };
 
-/// Distance between samples that keeps the surface to the budget.
-float ground_step_m(const terrain::Terrain& terrain, const GroundOptions& options);
+/// What of a chunk has one cover.
+struct GroundPiece {
+  TriangleMesh mesh;
+  terrain::Cover cover = terrain::Cover::natural;
+  std::size_t chunk = 0;
+};
 
-/// Chunks of the ground, western first, row by row from the south; the skirt is part of the outer ones.
-std::vector<TriangleMesh> mesh_ground(const terrain::Terrain& terrain, const GroundOptions& options);
-
-/// The water's surface, flat; empty without water.
-TriangleMesh mesh_water(const terrain::Terrain& terrain, const GroundOptions& options);
+/// Chunks of the ground, western first, row by row from the south, each as one piece a cover; the skirt is part of the
+/// outer ones.
+std::vector<GroundPiece> mesh_ground(const terrain::Terrain& terrain, const GroundOptions& options);
 
 }  // namespace bosquet::geometry

@@ -7,8 +7,8 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/scalar.h"
+#include "geometry/ground_finish.h"
 #include "geometry/noise.h"
-#include "geometry/texture_colour.h"
 #include "geometry/texture_relief.h"
 
 namespace bosquet::geometry {
@@ -109,26 +109,23 @@ GroundTextures make_ground(std::uint64_t seed, int size) {
     }
   });
 
-  // Scale to the promised mean, summed row by row.
-  const Vec3 sum = deterministic_reduce(
-      n, 64, Vec3(0.0f),
-      [&](std::size_t begin, std::size_t end) {
-        Vec3 part{0.0f};
-        for (std::size_t i = begin * n; i < end * n; ++i) part += colours[i];
-        return part;
-      },
-      [](Vec3 a, const Vec3& b) { return a + b; });
-  const Vec3 scale = kGroundMean * (static_cast<float>(n) * static_cast<float>(n)) / sum;
-  GroundTextures out{Image(size, size, 3), normal_map(relief, 1.0f)};
-  parallel_for(
-      n,
-      [&](std::size_t y) {
-        for (std::size_t x = 0; x < n; ++x) {
-          put_srgb(out.base_colour.at(static_cast<int>(x), static_cast<int>(y)), colours[y * n + x] * scale);
-        }
-      },
-      16);
-  return out;
+  return finish_ground(colours, relief);
+}
+
+Vec3 cover_colour(terrain::Cover cover) {
+  switch (cover) {
+    case terrain::Cover::gravel:
+      return kGravelColour;
+    case terrain::Cover::paving:
+      return kPavingColour;
+    case terrain::Cover::grass:
+      return kLawnColour;
+    case terrain::Cover::soil:
+      return kSoilColour;
+    case terrain::Cover::natural:
+      break;
+  }
+  return kMeadowColour;
 }
 
 }  // namespace bosquet::geometry

@@ -1,16 +1,17 @@
-// Ground texture: short grass and soil, light and nearly grey, that vertex colours tint into what the ground is.
+// Ground textures: grass, gravel, paving and soil, light and nearly grey, that vertex colours tint into what the ground is.
 //
 // Frame     shows kGroundTileM x kGroundTileM metres and tiles in both directions
 // Colour    sRGB with mean kGroundMean (linear); a vertex colour of ground_tint(c) makes its mean the linear colour c
 // Normal    linear, tangent space, +y up in the image, as glTF
 // Holds     a pure function of its arguments, the same bits for any thread count, build and x86-64 CPU
-// Cost      0.27 s for 1024 x 1024 on one core
+// Cost      0.27 s for grass of 1024 x 1024 on one core
 #pragma once
 
 #include <cstdint>
 
 #include "core/image.h"
 #include "core/vec.h"
+#include "terrain/area.h"
 
 namespace bosquet::geometry {
 
@@ -28,6 +29,11 @@ inline constexpr Vec3 kPavingColour{0.380f, 0.370f, 0.350f};
 inline constexpr Vec3 kLawnColour{0.066f, 0.098f, 0.034f};
 inline constexpr Vec3 kWetSandColour{0.150f, 0.120f, 0.085f};
 
+/// Of a cover; natural ground is meadow.
+Vec3 cover_colour(terrain::Cover cover);
+
+inline Vec2 ground_uv(Vec2 plan) { return Vec2{plan.x, -plan.y} / kGroundTileM; }
+
 /// The linear vertex colour that gives the ground this mean albedo; clamped to 1.
 inline Vec3 ground_tint(const Vec3& albedo) { return glm::min(albedo / kGroundMean, Vec3(1.0f)); }
 
@@ -36,7 +42,12 @@ struct GroundTextures {
   Image normal;       ///< RGB
 };
 
-/// `size` pixels a side: a power of two, 64 to 4096.
+/// Short grass. `size` pixels a side: a power of two, 64 to 4096.
 GroundTextures make_ground(std::uint64_t seed, int size);
+
+/// Gravel rolled flat; slabs of 60 by 30 cm laid in bond; bare soil, raked. As make_ground.
+GroundTextures make_gravel(std::uint64_t seed, int size);
+GroundTextures make_paving(std::uint64_t seed, int size);
+GroundTextures make_soil(std::uint64_t seed, int size);
 
 }  // namespace bosquet::geometry

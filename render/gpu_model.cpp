@@ -159,6 +159,8 @@ Result<std::size_t> GpuModel::add_materials(const MaterialLevels& added) {
     out.translucency = std::clamp(m.translucency, 0.0f, 1.0f);
     out.double_sided = m.double_sided;
     out.whole_trees = m.whole_trees;
+    out.patchiness = std::clamp(m.patchiness, 0.0f, 1.0f);
+    out.laid = m.laid;
     if (out.shader == Shader::ground && !ground_material) ground_material = materials.size() - 1;
   }
   if (auto fits = check_memory(); !fits) return fits.error();

@@ -47,7 +47,8 @@ struct GpuMaterial {
   GLuint base_colour = 0, normal = 0;  ///< texture names; 0: none
   Vec4 base_factor{1.0f};
   float roughness = 1, cutoff = 0.5f, translucency = 0;
-  bool double_sided = false, whole_trees = false;
+  float patchiness = 1;
+  bool double_sided = false, whole_trees = false, laid = false;
 };
 
 struct Drawable {

@@ -155,6 +155,16 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
   std::stable_sort(map.waters.begin(), map.waters.end(),
                    [](const WaterSurface& a, const WaterSurface& b) { return a.area_m2 > b.area_m2; });
   if (!map.waters.empty()) map.water_level_m = map.waters.front().level_m;
+  Box3 ground_box;
+  for (const scene::Node& node : model.nodes)
+    for (const scene::Part& part : node.parts)
+      if (part.mesh && model.materials[part.material].surface == scene::Surface::ground) {
+        const Box3 own = part.mesh->bounds();
+        ground_box.add(own.low + node.translation), ground_box.add(own.high + node.translation);
+      }
+  if (!ground_box.empty())
+    map.ground_box = {{ground_box.low.x, ground_box.low.z}, {ground_box.high.x, ground_box.high.z}};
+  const Vec3 rim = kEdgeShare * ground_box.size();
   // Colours of the ground, and of its dry edge.
   for (const scene::Node& node : model.nodes)
     for (const scene::Part& part : node.parts) {
@@ -162,16 +172,12 @@ Overhead make_overhead(const scene::Model& model, const Box3& bounds, int side) 
       const TriangleMesh& mesh = *part.mesh;
       const scene::Material& material = model.materials[part.material];
       const Vec3 texture = mean_colour(material), factor(material.base_factor);
-      const Box3 box = mesh.bounds();
-      const Vec2 corner(node.translation.x, node.translation.z);
-      map.ground_box.add(Vec2(box.low.x, box.low.z) + corner);
-      map.ground_box.add(Vec2(box.high.x, box.high.z) + corner);
-      const Vec3 rim = kEdgeShare * box.size();
       for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 tint = mesh.colours.empty() ? Vec3(1.0f) : Vec3(mesh.colours[i]) / 255.0f;
         albedo += glm::dvec4(glm::dvec3(texture) * tint, 1.0);
-        const Vec3 from_low = mesh.positions[i] - box.low, from_high = box.high - mesh.positions[i];
-        const float above_water = mesh.positions[i].y + node.translation.y - map.water_level_m.value_or(-1e30f);
+        const Vec3 at = mesh.positions[i] + node.translation;
+        const Vec3 from_low = at - ground_box.low, from_high = ground_box.high - at;
+        const float above_water = at.y - map.water_level_m.value_or(-1e30f);
         if (std::min({from_low.x, from_high.x}) <= rim.x || std::min(from_low.z, from_high.z) <= rim.z)
           if (above_water > kDryM) {
             // Meadow goes on around the site; soil and woodland floor only where nothing green reaches the edge.

@@ -48,6 +48,7 @@ Changes changes(const Document& before, const Document& after) {
   out.asymmetry = before.asymmetry != after.asymmetry;
   out.light = before.light != after.light;
   out.cameras = before.cameras != after.cameras;
+  out.figures = before.figures != after.figures;
   out.sun = before.sun != after.sun;
   out.max_triangles = before.max_triangles != after.max_triangles;
   out.clearance = before.clearance != after.clearance;

@@ -23,7 +23,7 @@ struct Changes {
   bool interactions = false, species_bar = false;
   bool obstacles = false, heroes = false;
   bool space = false, asymmetry = false, light = false;  ///< settings of the crown space and what follows
-  bool cameras = false, sun = false, max_triangles = false;
+  bool cameras = false, figures = false, sun = false, max_triangles = false;
   bool clearance = false, plan = false;  ///< plan: the sheet's settings or its underlay
   bool counters = false;
 
@@ -31,7 +31,8 @@ struct Changes {
   /// Whether anything but the counters is another.
   bool any() const {
     return site || !ground.none() || trees() || !species.empty() || fewer_species || interactions || species_bar ||
-           obstacles || heroes || space || asymmetry || light || cameras || sun || max_triangles || clearance || plan;
+           obstacles || heroes || space || asymmetry || light || cameras || figures || sun || max_triangles ||
+           clearance || plan;
   }
 };
 

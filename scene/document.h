@@ -40,6 +40,14 @@ struct Georeference {
   bool operator==(const Georeference&) const = default;
 };
 
+/// A person for scale, drawn in pictures alone.
+struct Figure {
+  Vec2 at{0.0f};
+  float heading_deg = 122.0f;  ///< where it walks to, from north clockwise
+
+  bool operator==(const Figure&) const = default;
+};
+
 struct Document {
   std::uint64_t seed = 1;
   Georeference place;
@@ -54,6 +62,7 @@ struct Document {
   crowns::AsymmetryOptions asymmetry;
   crowns::LightOptions light;
   SharedList<Camera> cameras;
+  SharedList<Figure> figures;
   Sun sun;
   ClearanceRules clearance;
   PlanSettings plan;

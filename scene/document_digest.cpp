@@ -257,6 +257,9 @@ Digest128 of_settings(const Document& d) {
   add_described(hash, d.light);
   hash.add(d.cameras.size());
   for (const Camera& c : d.cameras) hash.add(c.name).add(c.eye).add(c.target).add(c.vertical_fov_deg);
+  // Files from before there were figures keep their digests.
+  if (!d.figures.empty()) hash.add(d.figures.size());
+  for (const Figure& f : d.figures) hash.add(f.at).add(f.heading_deg);
   hash.add(d.sun.azimuth_deg).add(d.sun.elevation_deg).add(d.max_triangles);
   add_described(hash, d.clearance);
   add_described(hash, d.plan);

@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 8> kSectionNames{"site",  "ground"
                                                                "trees", "obstacles", "heroes",  "settings"};
 
 /// site: seed, place and counters. ground: heights, water level, masks. planting: interactions and species bar. settings:
-/// crown space, asymmetry, light, cameras, sun, triangles, clearance, plan sheet and underlay.
+/// crown space, asymmetry, light, cameras, figures, sun, triangles, clearance, plan sheet and underlay.
 struct SectionDigests {
   std::array<Digest128, kSectionNames.size()> of{};
 

@@ -59,7 +59,7 @@ std::size_t bytes_apart(const Document& a, const Document& b) {
   for (std::size_t s = 0; s < b.species.size(); ++s)
     if (s >= a.species.size() || a.species[s] != b.species[s]) bytes += sizeof(Species);
   bytes += bytes_beside(a.interactions, b.interactions) + bytes_beside(a.species_bar, b.species_bar) +
-           bytes_beside(a.cameras, b.cameras) + bytes_beside(a.obstacles, b.obstacles) +
+           bytes_beside(a.cameras, b.cameras) + bytes_beside(a.figures, b.figures) + bytes_beside(a.obstacles, b.obstacles) +
            bytes_beside(a.heroes, b.heroes);
   // Meshes and skeletons are shared by their pointers.
   std::set<const void*> held;

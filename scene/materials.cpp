@@ -1,5 +1,7 @@
 #include "scene/materials.h"
 
+#include <algorithm>
+#include <array>
 #include <iterator>
 #include <string_view>
 #include <type_traits>
@@ -8,6 +10,7 @@
 #include "core/parallel.h"
 #include "geometry/bark_texture.h"
 #include "geometry/foliage_mass.h"
+#include "geometry/ground_covers.h"
 #include "geometry/ground_texture.h"
 #include "geometry/leaf_atlas.h"
 
@@ -16,7 +19,7 @@ namespace {
 
 // Below one half, since most viewers let the alpha of distant leaves fade in their mipmaps.
 constexpr float kLeafCutoff = 0.35f;
-constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512;
+constexpr int kBarkPixels = 512, kAtlasPixels = 1024, kGroundPixels = 512, kHardPixels = 1024;
 // Obstacles are volumes in a plain light render.
 constexpr Vec3 kObstacleGrey{0.40f, 0.385f, 0.36f};
 // Seed of the textures: a species looks the same in every document.
@@ -113,13 +116,15 @@ void make_part(const Species& species, geometry::Season season, std::size_t job,
     paint_leaves(species, season, seed, paintings, parts);
 }
 
-Material ground_look(const PaintingCache* paintings) {
-  auto images = painted(paintings, key_of("ground", kTextureSeed, kGroundPixels).digest(), 2, [] {
-    auto textures = geometry::make_ground(kTextureSeed, kGroundPixels);
+using PaintGround = geometry::GroundTextures (*)(std::uint64_t seed, int size);
+
+Material ground_look(const char* name, PaintGround paint, int pixels, const PaintingCache* paintings) {
+  auto images = painted(paintings, key_of(name, kTextureSeed, pixels).digest(), 2, [&] {
+    auto textures = paint(kTextureSeed, pixels);
     return list_of(std::move(textures.base_colour), std::move(textures.normal));
   });
   Material ground;
-  ground.name = "ground";
+  ground.name = name;
   ground.surface = Surface::ground;
   ground.base_colour = shared(std::move(images[0]));
   ground.normal = shared(std::move(images[1]));
@@ -135,18 +140,59 @@ std::vector<Material> species_materials(const Species& species, geometry::Season
   return parts;
 }
 
-std::vector<Material> site_materials(const PaintingCache* paintings) {
-  Material water;
+SitePart ground_part(terrain::Cover cover) {
+  switch (cover) {
+    case terrain::Cover::gravel:
+      return kGravelPart;
+    case terrain::Cover::paving:
+      return kPavingPart;
+    case terrain::Cover::grass:
+      return kLawnPart;
+    case terrain::Cover::soil:
+      return kSoilPart;
+    case terrain::Cover::natural:
+      break;
+  }
+  return kGroundPart;
+}
+
+std::vector<Material> site_materials(const PaintingCache* paintings, const std::function<bool(terrain::Cover)>& shown) {
+  std::vector<Material> site(kOfSite);
+  struct Hard {
+    terrain::Cover cover;
+    const char* name;
+    PaintGround paint;
+    float patchiness;
+  };
+  const std::array<Hard, 3> hard{{{terrain::Cover::gravel, "gravel", geometry::make_gravel, 0.25f},
+                                  {terrain::Cover::paving, "paving", geometry::make_paving, 0.15f},
+                                  {terrain::Cover::soil, "soil", geometry::make_soil, 0.4f}}};
+  parallel_for(hard.size() + 1, [&](std::size_t job) {
+    if (job == hard.size()) {
+      site[kGroundPart] = ground_look("ground", geometry::make_ground, kGroundPixels, paintings);
+      return;
+    }
+    const Hard& h = hard[job];
+    if (shown && !shown(h.cover)) return;
+    Material& made = site[ground_part(h.cover)] = ground_look(h.name, h.paint, kHardPixels, paintings);
+    made.patchiness = h.patchiness;
+    made.laid = h.cover == terrain::Cover::paving;
+  });
+  // A lawn is mown grass.
+  site[kLawnPart] = site[kGroundPart];
+  site[kLawnPart].name = "lawn";
+  site[kLawnPart].patchiness = 0.35f;
+  Material& water = site[kWaterPart];
   water.name = "water";
   water.surface = Surface::water;
   water.base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
   water.roughness = 0.08f;
-  Material obstacle;
+  Material& obstacle = site[kObstaclePart];
   obstacle.name = "obstacle";
   obstacle.surface = Surface::obstacle;
   obstacle.base_factor = Vec4(kObstacleGrey, 1.0f);
   obstacle.double_sided = true;  // meshes of others face any way
-  return {ground_look(paintings), std::move(water), std::move(obstacle)};
+  return site;
 }
 
 std::vector<Material> make_materials(const Document& document, geometry::Season season,
@@ -156,11 +202,17 @@ std::vector<Material> make_materials(const Document& document, geometry::Season 
   std::vector<bool> used(n, false);
   for (const Tree& tree : *document.trees) used[tree.species] = true;
   for (const HeroTree& hero : document.heroes) used[hero.species] = true;
+  const terrain::Terrain& terrain = *document.terrain;
+  const bool barred = geometry::bars_anything(terrain);
+  const auto shown = [&](terrain::Cover cover) {
+    const auto& areas = terrain.areas.all();
+    return barred && std::any_of(areas.begin(), areas.end(), [&](const terrain::Area& a) { return a.cover == cover; });
+  };
   std::vector<Material> site;
   parallel_for(2 * n + 1, [&](std::size_t job) {
     const std::size_t s = job / 2;
     if (s == n)
-      site = site_materials(paintings);
+      site = site_materials(paintings, shown);
     else if (used[s])
       make_part(*document.species[s], season, job % 2, paintings, &materials[material_of(s, kBarkPart)]);
   });

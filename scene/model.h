@@ -32,6 +32,8 @@ struct Material {
   bool mask = false;          ///< alpha is tested
   bool double_sided = false;
   bool whole_trees = false;  ///< shows pictures of trees, whose leaves would shade each other
+  float patchiness = 1.0f;   ///< of ground: how much it is drawn drier here and lusher there; 0 even
+  bool laid = false;         ///< of ground: its picture is a pattern, never to be turned or mixed with itself
 };
 
 /// Facts that go along into files: numbers and texts by name, in order.

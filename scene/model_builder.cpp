@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "geometry/ground_mesh.h"
+#include "geometry/water_mesh.h"
 #include "growth/radii.h"
 #include "scene/materials.h"
 #include "scene/tree_parts.h"
@@ -28,6 +30,8 @@ constexpr float kPictureDiagonal = 2.04f;
 constexpr double kEvenShare = 0.35;
 // A tree behind the camera still throws shadows and is seen when the viewer turns.
 constexpr float kOutOfPicture = 0.35f;
+// From so many pixels on a leaf shows its shape: a twig drawn on a card is seen to be flat.
+constexpr float kLeafPixels = 4.0f;
 
 // How much of each square metre lies under crowns, for the colour of the ground.
 std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
@@ -57,11 +61,11 @@ std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
 
 // How large a tree appears to the camera that shows it largest: height over distance, less where it is out of the
 // picture.
-float apparent_size(const Document& document, const Vec3& base, float height) {
-  if (document.cameras.empty()) return height;
+float apparent_size(std::span<const Camera> cameras, const Vec3& base, float height) {
+  if (cameras.empty()) return height;
   const Vec3 middle = base + 0.5f * height * kUp;
   float largest = 0.0f;
-  for (const Camera& camera : document.cameras) {
+  for (const Camera& camera : cameras) {
     const Vec3 to = middle - camera.eye, view = camera.target - camera.eye;
     const float distance = std::max(glm::length(to), kNearest_m), radius = 0.5f * height;
     // The cone around the picture's corners, widened by the tree's own size.
@@ -73,6 +77,19 @@ float apparent_size(const Document& document, const Vec3& base, float height) {
     largest = std::max(largest, (shown ? 1.0f : kOutOfPicture) * height / distance);
   }
   return largest;
+}
+
+// What leaves of `leaf_m` are built as for one picture.
+geometry::FoliageLevel level_for(const ModelOptions& options, float leaf_m, const Vec3& base, float height,
+                                 float crown) {
+  if (!options.picture || options.foliage != geometry::FoliageLevel::clusters) return options.foliage;
+  const Camera& camera = *options.picture;
+  // From the eye to the crown, upright as a box.
+  const Vec3 half(0.5f * crown, 0.5f * height, 0.5f * crown);
+  const Vec3 beyond = glm::max(glm::abs(camera.eye - (base + half.y * kUp)) - half, Vec3(0.0f));
+  const SinCos view = sin_cos(0.5f * radians(camera.vertical_fov_deg));
+  const float pixels_at_1m = 0.5f * static_cast<float>(options.picture_height) * view.cos / view.sin;
+  return leaf_m * pixels_at_1m > kLeafPixels * glm::length(beyond) ? geometry::FoliageLevel::leaves : options.foliage;
 }
 
 Extras tree_extras(const Document& document, const Tree& tree, const GrownTree& grown) {
@@ -148,9 +165,9 @@ Extras scene_extras(const Document& document) {
   return extras;
 }
 
-std::size_t triangles(const std::vector<TriangleMesh>& meshes) {
+std::size_t triangles(const std::vector<geometry::GroundPiece>& ground) {
   std::size_t sum = 0;
-  for (const TriangleMesh& mesh : meshes) sum += mesh.triangles();
+  for (const geometry::GroundPiece& piece : ground) sum += piece.mesh.triangles();
   return sum;
 }
 
@@ -216,46 +233,54 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     ground_options.max_triangles = std::clamp<std::size_t>(
         static_cast<std::size_t>(kGroundShare * static_cast<float>(options.max_triangles)), 2, kMostGroundTriangles);
   ground_options.shade = crown_cover(scene);
-  std::vector<TriangleMesh> chunks = geometry::mesh_ground(*document.terrain, ground_options);
-  TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options);
+  std::vector<geometry::GroundPiece> ground = geometry::mesh_ground(*document.terrain, ground_options);
+  TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options.max_triangles);
   const std::size_t tree_count = scene.trees.size() + document.heroes.size();
   if (options.max_triangles > 0) {
     std::size_t obstacles = 0;
     for (const Obstacle& obstacle : document.obstacles) obstacles += obstacle.mesh->triangles();
     const auto least = [&] {
-      return triangles(chunks) + water.triangles() + obstacles + geometry::kTwoCardTriangles * tree_count;
+      return triangles(ground) + water.triangles() + obstacles + geometry::kTwoCardTriangles * tree_count;
     };
     if (least() > options.max_triangles) {
       // The coarsest ground there is.
       ground_options.max_triangles = 2;
-      chunks = geometry::mesh_ground(*document.terrain, ground_options);
-      water = geometry::mesh_water(*document.terrain, ground_options);
+      ground = geometry::mesh_ground(*document.terrain, ground_options);
+      water = geometry::mesh_water(*document.terrain, ground_options.max_triangles);
     }
     if (least() > options.max_triangles)
       return Error{fmt::format(
           "--max-triangles {}: the least possible here is {}: {} of the ground{}{}, and {} for each of {} trees",
-          options.max_triangles, least(), triangles(chunks),
+          options.max_triangles, least(), triangles(ground),
           water.empty() ? "" : fmt::format(", {} of the water", water.triangles()),
           obstacles == 0 ? "" : fmt::format(", {} of obstacles", obstacles), geometry::kTwoCardTriangles, tree_count)};
   }
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    built.triangles += chunks[c].triangles();
-    model.nodes.push_back(mesh_node(chunks.size() == 1 ? "ground" : fmt::format("ground-{}", c + 1),
-                                    std::move(chunks[c]), ground_material(document)));
+  built.triangles += triangles(ground);
+  const bool one_chunk = ground.back().chunk == 0;
+  for (std::size_t p = 0; p < ground.size(); ++p) {
+    geometry::GroundPiece& piece = ground[p];
+    if (p == 0 || piece.chunk != ground[p - 1].chunk) {
+      model.nodes.emplace_back();
+      model.nodes.back().name = one_chunk ? "ground" : fmt::format("ground-{}", piece.chunk + 1);
+    }
+    model.nodes.back().parts.push_back({std::make_shared<const TriangleMesh>(std::move(piece.mesh)),
+                                        site_material(document, ground_part(piece.cover))});
   }
   if (!water.empty()) {
     built.triangles += water.triangles();
-    model.nodes.push_back(mesh_node("water", std::move(water), water_material(document)));
+    model.nodes.push_back(mesh_node("water", std::move(water), site_material(document, kWaterPart)));
   }
 
   for (const Obstacle& obstacle : document.obstacles) {
     Node node;
     node.name = obstacle.name;
-    node.parts.push_back({obstacle.mesh, obstacle_material(document)});
+    node.parts.push_back({obstacle.mesh, site_material(document, kObstaclePart)});
     built.triangles += obstacle.mesh->triangles();
     model.nodes.push_back(std::move(node));
   }
 
+  std::vector<Camera> cameras(document.cameras.begin(), document.cameras.end());
+  if (options.picture) cameras = {*options.picture};
   // What each tree is drawn with, and what its full mesh needs.
   std::vector<Drawn> trees = drawn_trees(scene);
   std::vector<std::vector<float>> radii(trees.size());
@@ -271,13 +296,15 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
                    radii[i],
                    &species.look,
                    &species.foliage,
-                   {tree.season, options.season, options.foliage, 0, document.seed, tree.key, options.wind}};
+                   {tree.season, options.season,
+                    level_for(options, 1e-3f * species.look.leaf.length_mm, tree.base, tree.height_m, tree.crown_m), 0,
+                    document.seed, tree.key, options.wind}};
     order.species = tree.species;
     order.size = Vec2(tree.crown_m, tree.height_m);
     order.need = need[i] =
         geometry::estimate_triangles(*tree.skeleton, radii[i], species.look, species.foliage, order.input.options) * 3 /
         2;
-    const float apparent = apparent_size(document, tree.base, tree.height_m);
+    const float apparent = apparent_size(cameras, tree.base, tree.height_m);
     weight[i] = apparent * apparent * apparent;
   });
   if (options.max_triangles > 0) {

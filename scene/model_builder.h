@@ -12,6 +12,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 
 #include "core/progress.h"
 #include "core/result.h"
@@ -32,6 +33,10 @@ struct ModelOptions {
   bool levels = false;                       ///< trees get coarser levels too (scene/tree_parts.h)
   bool wind = false;                         ///< trees get wind weights (geometry/wind.h)
   const PaintingCache* paintings = nullptr;  ///< textures painted before; may be null
+  /// The model is for one picture: budgets go by its camera alone, and trees so near that single leaves can be told are
+  /// built of them where clusters would do for others.
+  std::optional<Camera> picture{};
+  int picture_height = 1080;  ///< pixels
   /// Called from any thread with the index of a tree of the scene whose skeleton is not read any more: it may be given up.
   std::function<void(std::size_t)> meshed{};
 };

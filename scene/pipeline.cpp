@@ -78,7 +78,7 @@ std::size_t TreeMeshes::bytes() const {
 }
 
 std::size_t triangles_seen(float height_m, float distance_m, float fineness) {
-  std::size_t triangles = kNearestTriangles;
+  std::size_t triangles = distance_m < 0.5f * height_m ? 3 * kNearestTriangles : kNearestTriangles;
   for (float d = height_m; d < distance_m && triangles > kFarthestTriangles; d *= 2.0f) triangles /= 3;
   const auto wanted = static_cast<std::size_t>(fineness * static_cast<float>(triangles));
   return std::clamp(wanted, kFarthestTriangles, kMostTriangles);

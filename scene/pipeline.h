@@ -9,7 +9,8 @@
 // Decision  everything derived is found again by a hash of what it was made from: skeletons in a SkeletonCache, meshes in
 //           a cache of their own. Both keep to their share of memory; what was used longest ago goes first
 // Decision  a mesh has as many triangles as the view needs, in levels: kNearestTriangles for a tree that is as high as
-//           its distance or nearer, a third of that for each doubling of the distance, more where `fineness` asks for it
+//           its distance, a third of that for each doubling of the distance, three times as many for one nearer than half
+//           its height, more where `fineness` asks for it; never more than kMostTriangles
 // Decision  trees to be removed are not grown, and take no room
 // Holds     the scene that grow_scene() makes of the last snapshot, bit for bit, once idle() is true, whatever came before
 // Threads   all members may be called from any thread; the work runs at nice 10 (core/background.h)

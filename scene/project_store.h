@@ -3,7 +3,7 @@
 // Format    a GeoPackage 1.3 with the feature tables `trees` (points) and `site` (its outline), and beside them
 //             bosquet_meta    name, value: `format` and what a file says of itself
 //             bosquet_text    section, number, name, json: settings, ground, areas, species, interactions, species_bar,
-//                             obstacles, heroes, cameras
+//                             obstacles, heroes, cameras, figures
 //             bosquet_blob    section, item, part, size, checksum, data: terrain tiles, obstacle meshes and hero
 //                             skeletons, compressed (project_blob.h)
 //             bosquet_digest  section, rows, digest: a 128-bit hash of each section's values, rows in order

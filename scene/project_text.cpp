@@ -252,6 +252,18 @@ void read_camera(JsonReader& in, Camera& c) {
   in.number("vertical_fov_deg", c.vertical_fov_deg);
 }
 
+Json figure_json(const Figure& f) {
+  Json json;
+  json["at"] = json_of(f.at);
+  json["heading_deg"] = json_number(f.heading_deg);
+  return json;
+}
+
+void read_figure(JsonReader& in, Figure& f) {
+  in.vector("at", f.at);
+  in.number("heading_deg", f.heading_deg);
+}
+
 // Rows of a list, each with the name of its item.
 template <class Item, class ToJson>
 std::vector<TextRow> list_rows(const SharedList<Item>& list, const SharedList<Item>* before, const ToJson& to_json) {
@@ -291,8 +303,9 @@ std::vector<TextRow> text_rows(const std::string& section, const Document& d, co
   if (section == "species_bar") return list_rows(d.species_bar, before ? &before->species_bar : nullptr, mix_json);
   if (section == "obstacles") return list_rows(d.obstacles, before ? &before->obstacles : nullptr, obstacle_json);
   if (section == "heroes") return list_rows(d.heroes, before ? &before->heroes : nullptr, hero_json);
-  assert(section == "cameras");
-  return list_rows(d.cameras, before ? &before->cameras : nullptr, camera_json);
+  if (section == "cameras") return list_rows(d.cameras, before ? &before->cameras : nullptr, camera_json);
+  assert(section == "figures");
+  return list_rows(d.figures, before ? &before->figures : nullptr, figure_json);
 }
 
 void TextReader::read(const std::string& section, const std::vector<TextRow>& rows) {
@@ -341,6 +354,8 @@ void TextReader::read(const std::string& section, const std::vector<TextRow>& ro
     d.heroes = items(std::vector<HeroTree>{}, [&](JsonReader& in, HeroTree& h) { read_hero(in, h, d.species.size()); });
   } else if (section == "cameras") {
     d.cameras = items(std::vector<Camera>{}, read_camera);
+  } else if (section == "figures") {
+    d.figures = items(std::vector<Figure>{}, read_figure);
   }
 }
 

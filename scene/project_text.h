@@ -20,7 +20,7 @@ struct TextRow {
 
 // Sections, in the order in which they are read.
 inline constexpr const char* kTextSections[] = {"settings",    "ground",    "areas",  "species", "interactions",
-                                                "species_bar", "obstacles", "heroes", "cameras"};
+                                                "species_bar", "obstacles", "heroes", "cameras", "figures"};
 
 /// The rows of a section. When `before` is given, rows whose source both documents share are left empty: they are what
 /// they were.

@@ -5,6 +5,7 @@
 #include "core/hash.h"
 #include "geometry/ground_mesh.h"
 #include "geometry/ground_texture.h"
+#include "geometry/water_mesh.h"
 
 namespace bosquet::scene {
 namespace {
@@ -94,11 +95,12 @@ void add_ground(Model& model, const GrownScene& scene) {
   ground.base_factor = Vec4(geometry::kGroundMean, 1.0f);  // the tints are relative to the texture's mean
   model.materials.push_back(std::move(ground));
   const std::size_t ground_material = model.materials.size() - 1;
-  for (TriangleMesh& chunk : geometry::mesh_ground(*scene.document.terrain, {}))
-    add_node(model, "ground", std::move(chunk), ground_material);
+  const geometry::GroundOptions options;
+  for (geometry::GroundPiece& piece : geometry::mesh_ground(*scene.document.terrain, options))
+    add_node(model, "ground", std::move(piece.mesh), ground_material);
   const std::size_t water = add_material(model, "water", Surface::water);
   model.materials[water].base_factor = {0.06f, 0.10f, 0.11f, 1.0f};
-  add_node(model, "water", geometry::mesh_water(*scene.document.terrain, {}), water);
+  add_node(model, "water", geometry::mesh_water(*scene.document.terrain, options.max_triangles), water);
 }
 
 // The site as a sheet, for views from above.

@@ -8,6 +8,8 @@
 #include "core/stopwatch.h"
 #include "exchange/texture_cache.h"
 #include "geometry/ground_mesh.h"
+#include "geometry/human_figure.h"
+#include "geometry/water_mesh.h"
 #include "scene/materials.h"
 #include "scene/view_models.h"
 
@@ -15,13 +17,14 @@ namespace bosquet::ui {
 namespace {
 
 // Nodes of the renderer by what they are; a tree's key is its id.
-enum Kind : std::uint64_t { kTree = 0, kShape, kGround, kWater, kObstacle, kHero, kViewModel, kUnderlay };
+enum Kind : std::uint64_t { kTree = 0, kShape, kGround, kWater, kObstacle, kHero, kViewModel, kUnderlay, kFigure };
 std::uint64_t key_of(Kind kind, std::uint64_t number) { return kind << 40 | number; }
 
-// Materials that are there from the beginning.
-enum : std::size_t { kGroundMaterial, kWaterMaterial, kObstacleMaterial, kShapeMaterial, kFlatMaterial };
+// Materials that are there from the beginning, behind those of the site.
+enum : std::size_t { kShapeMaterial = scene::kOfSite, kFlatMaterial };
 
 constexpr std::size_t kGroundTriangles = 60'000;
+constexpr Rgba8 kFigureColour(12, 12, 14, 255);
 constexpr float kUnderlayLift_m = 0.06f;
 // A full picture that takes longer would hold up the hand.
 constexpr double kMoment_s = 0.25;
@@ -114,11 +117,12 @@ void SceneView::follow_site(const scene::Document& document) {
   if (!shown_ || shown_->terrain != document.terrain) {
     geometry::GroundOptions options;
     options.max_triangles = kGroundTriangles;
-    std::vector<TriangleMesh> chunks = geometry::mesh_ground(*document.terrain, options);
+    std::vector<geometry::GroundPiece> pieces = geometry::mesh_ground(*document.terrain, options);
     for (std::uint64_t c = 0;; ++c) {
-      if (c < chunks.size()) {
+      if (c < pieces.size()) {
         scene::Node node;
-        node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(chunks[c])), kGroundMaterial});
+        node.parts.push_back(
+            {std::make_shared<const TriangleMesh>(std::move(pieces[c].mesh)), scene::ground_part(pieces[c].cover)});
         put(key_of(kGround, c), std::move(node));
       } else if (nodes_.contains(key_of(kGround, c))) {
         remove(key_of(kGround, c));
@@ -126,12 +130,24 @@ void SceneView::follow_site(const scene::Document& document) {
         break;
       }
     }
-    TriangleMesh water = geometry::mesh_water(*document.terrain, options);
+    TriangleMesh water = geometry::mesh_water(*document.terrain, options.max_triangles);
     remove(key_of(kWater, 0));
     if (!water.empty()) {
       scene::Node node;
-      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(water)), kWaterMaterial});
+      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(water)), scene::kWaterPart});
       put(key_of(kWater, 0), std::move(node));
+    }
+  }
+  if (!shown_ || shown_->terrain != document.terrain || !shown_->figures.shares(document.figures)) {
+    for (std::uint64_t f = 0; nodes_.contains(key_of(kFigure, f)); ++f) remove(key_of(kFigure, f));
+    std::uint64_t number = 0;
+    for (const scene::Figure& figure : document.figures) {
+      TriangleMesh mesh = geometry::human_figure(figure.heading_deg);
+      mesh.colours.assign(mesh.positions.size(), kFigureColour);
+      scene::Node node;
+      node.translation = to_world(figure.at, document.terrain->ground(figure.at));
+      node.parts.push_back({std::make_shared<const TriangleMesh>(std::move(mesh)), kShapeMaterial});
+      put(key_of(kFigure, number++), std::move(node));
     }
   }
   if (!shown_ || !shown_->obstacles.shares(document.obstacles)) {
@@ -140,7 +156,7 @@ void SceneView::follow_site(const scene::Document& document) {
         remove(key_of(kObstacle, static_cast<std::uint64_t>(-obstacle.id)));
     for (const scene::Obstacle& obstacle : document.obstacles) {
       scene::Node node;
-      node.parts.push_back({obstacle.mesh, kObstacleMaterial});
+      node.parts.push_back({obstacle.mesh, scene::kObstaclePart});
       put(key_of(kObstacle, static_cast<std::uint64_t>(-obstacle.id)), std::move(node));
     }
   }
@@ -331,7 +347,8 @@ void SceneView::follow_overhead(bool growing) {
   for (const auto& [key, node] : nodes_) {
     scene::Node copy = node;
     // What counts overhead is ground, water or something that stands on it.
-    for (scene::Part& part : copy.parts) part.material = std::min<std::size_t>(part.material, kObstacleMaterial);
+    for (scene::Part& part : copy.parts)
+      if (part.material >= scene::kOfSite) part.material = scene::kObstaclePart;
     model.nodes.push_back(std::move(copy));
   }
   const Box3 bounds = renderer_->bounds();

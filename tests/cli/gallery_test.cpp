@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "cli/human_figure.h"
+#include "geometry/human_figure.h"
 #include "cli/sheet.h"
 #include "growth/age.h"
 #include "growth/grow.h"
@@ -21,14 +21,14 @@ bool dark(const Image& image, int x, int y) {
 }
 
 TEST(HumanFigure, StandsOnTheGroundAndIsAsTallAsItSays) {
-  const Box3 box = human_figure().bounds();
+  const Box3 box = geometry::human_figure().bounds();
   EXPECT_NEAR(box.low.y, 0.0f, 0.01f);
   EXPECT_NEAR(box.high.y, kFigureHeight, 1e-4f);
 }
 
 TEST(HumanFigure, HasAboutTheVolumeOfAPerson) {
   // Signed, so triangles that face inward would take away; parts that overlap count twice.
-  const TriangleMesh mesh = human_figure();
+  const TriangleMesh mesh = geometry::human_figure();
   float volume = 0.0f;
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     const Vec3 &a = mesh.positions[mesh.indices[t]], &b = mesh.positions[mesh.indices[t + 1]],
@@ -41,7 +41,7 @@ TEST(HumanFigure, HasAboutTheVolumeOfAPerson) {
 
 TEST(HumanFigure, IsClosed) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  const TriangleMesh mesh = human_figure();
+  const TriangleMesh mesh = geometry::human_figure();
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = mesh.indices[t + k], b = mesh.indices[t + (k + 1) % 3];

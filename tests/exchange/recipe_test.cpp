@@ -123,6 +123,14 @@ TEST(Recipe, CamerasStandAboveTheGroundUnderThem) {
   EXPECT_NEAR(camera.target.y, 1.0f, 1e-4f);  // on the water
 }
 
+TEST(Recipe, FiguresStandOnTheSiteAndComeBackFromAWrittenRecipe) {
+  const BuiltRecipe built = build("[[figure]]\nat = [12, 7.5]\n[[figure]]\nat = [3, 4]\nheading_deg = 270\n");
+  ASSERT_EQ(built.document.figures.size(), 2u);
+  EXPECT_EQ(built.document.figures[0], (scene::Figure{{12, 7.5f}}));
+  EXPECT_EQ(built.document.figures[1], (scene::Figure{{3, 4}, 270}));
+  EXPECT_NE(mistake_in("[[figure]]\nheading_deg = 3\n").find("needs at = [east, north]"), std::string::npos);
+}
+
 TEST(Recipe, LayersDivideTheHeightOfTheTallestTree) {
   const BuiltRecipe built =
       build("[space]\nlayers = 20\n[[planting]]\nkind = 'single'\nspecies = { norway_spruce = 1 }\nat = [30, 20]\n");

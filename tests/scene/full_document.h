@@ -92,7 +92,7 @@ inline Document full_document(int trees = 300) {
   // project_store.cpp), before the number of names is changed.
   {
     [[maybe_unused]] const auto& [seed, place, terrain, species, interactions, species_bar, tree_list, obstacles,
-                                  heroes, space, asymmetry, light, cameras, sun, clearance, plan, underlay,
+                                  heroes, space, asymmetry, light, cameras, figures, sun, clearance, plan, underlay,
                                   max_triangles, next_tree_id, next_standing_id, next_block] = Document{};
   }
   Document d;
@@ -168,6 +168,7 @@ inline Document full_document(int trees = 300) {
   d.asymmetry = changed_everywhere<crowns::AsymmetryOptions>();
   d.light = changed_everywhere<crowns::LightOptions>();
   d.cameras = {{"north gate", {1, 2.5f, -3}, {4, 5, -6}, 33.0f}, {"", {0.1f, 0, 0}, {7, 8, 9}, 50.0f}};
+  d.figures = {{{1.5f, 2.25f}, 300.0f}, {{0.1f, 7}, -12.5f}};
   d.sun = {123.5f, 17.25f};
   d.clearance = changed_everywhere<ClearanceRules>();
   d.plan = changed_everywhere<PlanSettings>();

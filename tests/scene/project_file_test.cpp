@@ -27,6 +27,7 @@ void expect_equal(const Document& a, const Document& b) {
   EXPECT_EQ(a.space, b.space);
   EXPECT_EQ(a.asymmetry, b.asymmetry);
   EXPECT_EQ(a.cameras, b.cameras);
+  EXPECT_EQ(a.figures, b.figures);
   EXPECT_EQ(a.sun, b.sun);
   EXPECT_EQ(a.clearance, b.clearance);
   EXPECT_EQ(a.plan, b.plan);
