@@ -180,7 +180,8 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
     // A model for a picture alone is made for what is seen in it, and files keep to their budget.
-    if (!some_output(options, [](const path& p) { return format_of(p)->model && format_of(p)->write != write_png; })) {
+    if (!some_output(options,
+                     [](const path& p) { return is_made_of_meshes(p) && exchange::telling_ending(p) != ".png"; })) {
       model.picture = picture_camera(grown->document, options);
       model.picture_height = options.height;
       if (!options.max_triangles && model.max_triangles > 0)

@@ -8,6 +8,7 @@
 #include "render/headless_context.h"
 #include "render/renderer.h"
 #include "render/sun_position.h"
+#include "scene/figures.h"
 #include "scene/view_models.h"
 
 namespace bosquet::cli {
@@ -15,9 +16,6 @@ namespace {
 
 // Height of the world that a plan shows, with a little margin round the site and its overhanging crowns.
 constexpr float kPlanMargin = 1.06f;
-
-// A person in dark clothes, no more than a measure.
-constexpr Vec4 kWalkerColour{0.045f, 0.047f, 0.055f, 1.0f};
 
 bool from_above(ViewKind view) {
   return view == ViewKind::plan || view == ViewKind::arrows || view == ViewKind::regions;
@@ -37,24 +35,11 @@ render::View plan_view(const scene::Model& model, const Options& options) {
   return view;
 }
 
-// The model with the people for scale that the document has and that are asked for.
-scene::Model with_figures(scene::Model model, const scene::Document& document, const Options& options) {
-  scene::Material ink;
-  ink.name = "figure";
-  ink.surface = scene::Surface::obstacle;
-  ink.base_factor = kWalkerColour;
-  model.materials.push_back(std::move(ink));
+// The document's figures and those that are asked for.
+std::vector<scene::Figure> wanted_figures(const scene::Document& document, const Options& options) {
   std::vector<scene::Figure> figures(document.figures.begin(), document.figures.end());
   for (const Vec2 at : options.figures) figures.push_back({at, geometry::kFigureHeading_deg});
-  for (const scene::Figure& figure : figures) {
-    scene::Node node;
-    node.name = "figure";
-    node.translation = to_world(figure.at, document.terrain->ground(figure.at));
-    node.parts.push_back(
-        {std::make_shared<const TriangleMesh>(geometry::human_figure(figure.heading_deg)), model.materials.size() - 1});
-    model.nodes.push_back(std::move(node));
-  }
-  return model;
+  return figures;
 }
 
 Result<scene::Sun> chosen_sun(const scene::Document& document, const Options& options) {
@@ -142,11 +127,13 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   if (!context) return context.error();
   auto renderer = render::Renderer::create();
   if (!renderer) return renderer.error();
-  if (auto uploaded = options.figures.empty() && document.figures.empty()
-                          ? renderer->upload(model)
-                          : renderer->upload(with_figures(model, document, options));
-      !uploaded)
-    return uploaded;
+  scene::Model with_figures;
+  const std::vector<scene::Figure> figures = wanted_figures(document, options);
+  if (!figures.empty()) {
+    with_figures = model;
+    scene::add_figures(with_figures, figures, *document.terrain);
+  }
+  if (auto uploaded = renderer->upload(figures.empty() ? model : with_figures); !uploaded) return uploaded;
   auto image = renderer->draw(view);
   if (!image) return image.error();
   return exchange::write_image(target, *image);

@@ -13,6 +13,7 @@ using terrain::TiledGrid;
 
 // A line keeps so far off a triangle's corners, as a share of the edge: else it would make triangles without area.
 constexpr float kOffCorner = 0.02f;
+constexpr int kHalvings = 4;  // of an edge until shares are linear on what is left
 
 std::size_t index(Cover cover) { return static_cast<std::size_t>(cover); }
 
@@ -107,13 +108,21 @@ CellCovers::CellCovers(const terrain::Terrain& terrain, const GroundGrid& grid, 
 CoverPoint::CoverPoint(const Vec3& position, const terrain::CoverShares& found)
     : at(position), shares(found), cover(largest(found)) {}
 
-Vec3 crossing(const CoverPoint& a, const CoverPoint& b) {
+Vec3 crossing(const terrain::Terrain& terrain, const CoverPoint& a, const CoverPoint& b) {
   // From the end with the lower cover, so that both triangles at an edge find the same point.
   const bool up = a.cover < b.cover;
   const CoverPoint &low = up ? a : b, &high = up ? b : a;
-  const float at_low = low.shares[index(low.cover)] - low.shares[index(high.cover)];
-  const float at_high = high.shares[index(high.cover)] - high.shares[index(low.cover)];
-  const float t = at_low + at_high > 0.0f ? at_low / (at_low + at_high) : 0.5f;
+  const auto lead = [&](const terrain::CoverShares& s) { return s[index(low.cover)] - s[index(high.cover)]; };
+  float from = 0.0f, to = 1.0f, at_from = lead(low.shares), at_to = lead(high.shares);
+  for (int step = 0; step < kHalvings; ++step) {
+    const float middle = 0.5f * (from + to);
+    const float there = lead(cover_shares(terrain, to_plan(low.at + (high.at - low.at) * middle)));
+    if (there > 0.0f)
+      from = middle, at_from = there;
+    else
+      to = middle, at_to = there;
+  }
+  const float t = from + (to - from) * (at_from > at_to ? at_from / (at_from - at_to) : 0.5f);
   return low.at + (high.at - low.at) * std::clamp(t, kOffCorner, 1.0f - kOffCorner);
 }
 

@@ -1,9 +1,9 @@
 // Ground covers: which cover lies where on a ground grid, and ground triangles cut along the lines between covers.
 //
-// Model     at a place each cover has a share (terrain::CoverShares, the rest natural); the largest one is seen. On a
-//           triangle's edge the shares are taken as linear, so the line between two covers crosses the edge where theirs
-//           are equal. Edges of areas are stored as ramps about two samples wide (terrain/mask.h), so a line at any
-//           angle follows the drawn one within some hundredths of a cell
+// Model     at a place each cover has a share (terrain::CoverShares, the rest natural); the largest one is seen. The line
+//           between two covers crosses a triangle's edge where their shares are equal, found by halving. Edges of areas
+//           are stored as ramps about a cell wide (terrain/mask.h), so a line at any angle follows the drawn one within
+//           a tenth of a cell
 // Holds     triangles that share an edge cut it at the same point, to the bit
 #pragma once
 
@@ -52,22 +52,20 @@ struct CoverPoint {
   CoverPoint(const Vec3& position, const terrain::CoverShares& found);
 };
 
+/// Where the line between the covers of two points crosses the edge between them.
+Vec3 crossing(const terrain::Terrain& terrain, const CoverPoint& a, const CoverPoint& b);
+
 /// Calls put(cover, a, b, c) with the triangles that a triangle is cut into, turning as it does.
 template <class Put>
-void cut_by_cover(const std::array<CoverPoint, 3>& p, const Put& put);
-
-/// Where the line between the covers of two points crosses the edge between them.
-Vec3 crossing(const CoverPoint& a, const CoverPoint& b);
-
-template <class Put>
-void cut_by_cover(const std::array<CoverPoint, 3>& p, const Put& put) {
+void cut_by_cover(const terrain::Terrain& terrain, const std::array<CoverPoint, 3>& p, const Put& put) {
   const auto quad = [&](terrain::Cover cover, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     put(cover, a, b, c), put(cover, a, c, d);
   };
   const bool same01 = p[0].cover == p[1].cover, same12 = p[1].cover == p[2].cover, same20 = p[2].cover == p[0].cover;
   if (same01 && same12) return put(p[0].cover, p[0].at, p[1].at, p[2].at);
   if (!same01 && !same12 && !same20) {
-    const Vec3 m01 = crossing(p[0], p[1]), m12 = crossing(p[1], p[2]), m20 = crossing(p[2], p[0]);
+    const Vec3 m01 = crossing(terrain, p[0], p[1]), m12 = crossing(terrain, p[1], p[2]),
+               m20 = crossing(terrain, p[2], p[0]);
     const Vec3 middle = (m01 + m12 + m20) * (1.0f / 3.0f);
     quad(p[0].cover, p[0].at, m01, middle, m20);
     quad(p[1].cover, p[1].at, m12, middle, m01);
@@ -77,7 +75,7 @@ void cut_by_cover(const std::array<CoverPoint, 3>& p, const Put& put) {
   // Two alike, one alone.
   const std::size_t alone = same12 ? 0 : same20 ? 1 : 2;
   const CoverPoint &a = p[alone], &b = p[(alone + 1) % 3], &c = p[(alone + 2) % 3];
-  const Vec3 mb = crossing(a, b), mc = crossing(a, c);
+  const Vec3 mb = crossing(terrain, a, b), mc = crossing(terrain, a, c);
   put(a.cover, a.at, mb, mc);
   quad(b.cover, mb, b.at, c.at, mc);
 }

@@ -147,8 +147,8 @@ void add_parted_cell(ChunkMeshes& out, const Ground& g, int i, int j) {
       const auto at = [&](int ds, int dt) -> const CoverPoint& {
         return points[static_cast<std::size_t>((t + dt) * (n + 1) + s + ds)];
       };
-      cut_by_cover({at(0, 0), at(1, 0), at(0, 1)}, put);
-      cut_by_cover({at(1, 0), at(1, 1), at(0, 1)}, put);
+      cut_by_cover(g.terrain, {at(0, 0), at(1, 0), at(0, 1)}, put);
+      cut_by_cover(g.terrain, {at(1, 0), at(1, 1), at(0, 1)}, put);
     }
 }
 

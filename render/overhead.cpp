@@ -76,7 +76,10 @@ void extend_ground(Overhead& map, float nothing) {
   for (int j = 0; j < map.rows; ++j)
     for (int i = 0; i < map.columns; ++i) {
       if (at(i, j) > nothing) continue;
-      const IVec2 nearest = high.x < 0 ? IVec2(0) : glm::clamp(IVec2(i, j), low, high);
+      IVec2 nearest = high.x < 0 ? IVec2(0) : glm::clamp(IVec2(i, j), low, high);
+      // Cells at the rim lie partly beyond the ground and may have no height of their own.
+      for (int inward = 1; high.x >= 0 && inward <= 2 && at(nearest.x, nearest.y) <= nothing; ++inward)
+        nearest = glm::clamp(nearest, glm::min(low + inward, high), glm::max(high - inward, low));
       const float height = high.x < 0 ? map.base : at(nearest.x, nearest.y);
       at(i, j) = height > nothing ? height : map.base;
     }

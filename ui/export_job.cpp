@@ -10,6 +10,7 @@
 #include "exchange/texture_cache.h"
 #include "render/headless_context.h"
 #include "render/renderer.h"
+#include "scene/figures.h"
 #include "scene/view_models.h"
 
 namespace bosquet::ui {
@@ -177,10 +178,13 @@ Result<std::string> write_export(const ExportOrder& order, Progress* progress) {
   options.max_triangles = static_cast<std::size_t>(std::max(0, order.settings.max_triangles));
   const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
   options.paintings = &paintings;
+  if (picture) options.picture = order.view.camera, options.picture_height = order.view.height;
   auto built = scene::build_model(order.scene, options, progress);
   if (!built) return built.error();
-  return picture ? write_picture(built->model, order.view, target, progress)
-                 : write_model(built->model, built->triangles, order.settings, target, progress);
+  if (!picture) return write_model(built->model, built->triangles, order.settings, target, progress);
+  const auto& figures = order.scene.document.figures;
+  scene::add_figures(built->model, {figures.begin(), figures.end()}, *order.scene.document.terrain);
+  return write_picture(built->model, order.view, target, progress);
 }
 
 }  // namespace

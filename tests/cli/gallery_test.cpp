@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "geometry/human_figure.h"
 #include "cli/sheet.h"
+#include "geometry/human_figure.h"
 #include "growth/age.h"
 #include "growth/grow.h"
 #include "growth/measure.h"
@@ -23,7 +23,7 @@ bool dark(const Image& image, int x, int y) {
 TEST(HumanFigure, StandsOnTheGroundAndIsAsTallAsItSays) {
   const Box3 box = geometry::human_figure().bounds();
   EXPECT_NEAR(box.low.y, 0.0f, 0.01f);
-  EXPECT_NEAR(box.high.y, kFigureHeight, 1e-4f);
+  EXPECT_NEAR(box.high.y, geometry::kFigureHeight, 1e-4f);
 }
 
 TEST(HumanFigure, HasAboutTheVolumeOfAPerson) {
@@ -129,8 +129,8 @@ TEST(Gallery, ThePersonAndTheTreesStandOnOneLineAtOneScale) {
   const float asked = growth::height_share_at_age(maple->growth, 9.0f) * maple->shape.mature_height_m;
   const float height = growth::measure(skeleton, growth::season_at_height(skeleton, asked)).height_m;
   // A twig or leaf stands up beyond the wood, and pixels are 2 cm.
-  EXPECT_NEAR(static_cast<float>(top(feet[1])) / person * kFigureHeight, height, 0.3f);
-  EXPECT_NEAR(static_cast<float>(top(feet[2])) / person * kFigureHeight, height, 0.3f);
+  EXPECT_NEAR(static_cast<float>(top(feet[1])) / person * geometry::kFigureHeight, height, 0.3f);
+  EXPECT_NEAR(static_cast<float>(top(feet[2])) / person * geometry::kFigureHeight, height, 0.3f);
 }
 
 TEST(Gallery, ASheetTooSmallForItsSpeciesIsRefused) {

@@ -122,7 +122,7 @@ TEST(GroundMesh, LinesBetweenCoversFollowTheDrawnEdges) {
     int rim;
   };
   // The terrain's cells of 1 m; cells of 2 m, parted along the lines; cells of 2 m and no room to part them.
-  for (const auto& [budget, off_m, rim] : {Case{200'000, 0.12f, 160}, {3'000, 0.12f, 80}, {1'500, 0.5f, 80}}) {
+  for (const auto& [budget, off_m, rim] : {Case{200'000, 0.08f, 160}, {3'000, 0.08f, 80}, {1'500, 0.5f, 80}}) {
     GroundOptions options = within(budget);
     options.chunk_cells = 8;
     const std::vector<GroundPiece> pieces = mesh_ground(t, options);

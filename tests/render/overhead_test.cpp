@@ -35,6 +35,20 @@ TEST(Overhead, TakesTheLargestWaterSurfaceForTheWater) {
   EXPECT_EQ(*map.water_level_m, 1.5f);
 }
 
+TEST(Overhead, GroundGoesOnAtItsHeightBeyondARaggedEdge) {
+  scene::Model model = test::ground_scene(40);
+  // A sliver that sticks out by less than a cell.
+  TriangleMesh sliver;
+  sliver.positions = {{40, 0, -20}, {40.08f, 0, -20}, {40, 0, -20.08f}};
+  sliver.normals.assign(3, kUp);
+  sliver.indices = {0, 1, 2};
+  test::add_node(model, std::move(sliver), 0);
+  Box3 box = bounds(model);
+  box.low.y = -5;  // of something beside
+  const Overhead map = make_overhead(model, box);
+  for (const float z : {-39.0f, -20.1f, -3.0f}) EXPECT_NEAR(map.ground[cell_at(map, 45, z)], 0, 1e-4) << z;
+}
+
 TEST(Overhead, OfNothingHoldsOneCell) {
   const Overhead map = make_overhead({}, Box3());
   EXPECT_EQ(map.columns * map.rows, 1);
