@@ -30,8 +30,8 @@ constexpr float kPictureDiagonal = 2.04f;
 constexpr double kEvenShare = 0.35;
 // A tree behind the camera still throws shadows and is seen when the viewer turns.
 constexpr float kOutOfPicture = 0.35f;
-// From so many pixels on a leaf shows its shape: a twig drawn on a card is seen to be flat.
-constexpr float kLeafPixels = 4.0f;
+// From so many pixels across on a leaf shows its shape: a twig drawn on a card is seen to be flat.
+constexpr float kLeafPixels = 2.0f;
 
 // How much of each square metre lies under crowns, for the colour of the ground.
 std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
@@ -79,7 +79,8 @@ float apparent_size(std::span<const Camera> cameras, const Vec3& base, float hei
   return largest;
 }
 
-// What leaves of `leaf_m` are built as for one picture.
+// What leaves `leaf_m` wide are built as for one picture. Needles and other narrow ones stay on their twigs' cards longest,
+// which show more of them than stand singly.
 geometry::FoliageLevel level_for(const ModelOptions& options, float leaf_m, const Vec3& base, float height,
                                  float crown) {
   if (!options.picture || options.foliage != geometry::FoliageLevel::clusters) return options.foliage;
@@ -297,7 +298,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
                    &species.look,
                    &species.foliage,
                    {tree.season, options.season,
-                    level_for(options, 1e-3f * species.look.leaf.length_mm, tree.base, tree.height_m, tree.crown_m), 0,
+                    level_for(options, 1e-3f * species.look.leaf.width_mm, tree.base, tree.height_m, tree.crown_m), 0,
                     document.seed, tree.key, options.wind}};
     order.species = tree.species;
     order.size = Vec2(tree.crown_m, tree.height_m);
