@@ -10,7 +10,7 @@ namespace bosquet::geometry {
 namespace {
 
 /// What a place of a texture shows.
-struct Grain {
+struct GroundGrain {
   Vec3 colour;
   float height_cm;
 };
@@ -25,7 +25,7 @@ GroundTextures paint_ground(int size, const Paint& grain) {
   parallel_for(n, [&](std::size_t y) {
     const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
     for (std::size_t x = 0; x < n; ++x) {
-      const Grain seen = grain((static_cast<float>(x) + 0.5f) / static_cast<float>(size), v);
+      const GroundGrain seen = grain((static_cast<float>(x) + 0.5f) / static_cast<float>(size), v);
       colours[y * n + x] = seen.colour;
       relief.at(static_cast<int>(x), static_cast<int>(y)) = seen.height_cm;
     }
@@ -46,7 +46,7 @@ GroundTextures make_gravel(std::uint64_t seed, int size) {
   const TileFractal sand(seed, 82, 160, 160, 2), trodden(seed, 83, 4, 4, 3);
   return paint_ground(size, [&](float u, float v) {
     const float deep = 0.5f + 0.5f * trodden(u, v);
-    Grain seen{Vec3(0.92f, 0.90f, 0.84f) * (0.86f + 0.16f * sand(u, v)), 0.05f * sand(u, v)};
+    GroundGrain seen{Vec3(0.92f, 0.90f, 0.84f) * (0.86f + 0.16f * sand(u, v)), 0.05f * sand(u, v)};
     const auto lay = [&](const TileCells& cells, float share, float height_cm) {
       const TileCells::Hit hit = cells(u, v);
       if (cells.random(hit.cell, 1) > share) return;
@@ -82,7 +82,7 @@ GroundTextures make_paving(std::uint64_t seed, int size) {
     const Vec3 stone = glm::mix(Vec3(0.98f, 1.0f, 1.02f), Vec3(1.02f, 1.0f, 0.95f), warm) *
                        (tone * (1.0f + 0.07f * face(u, v) + 0.05f * fine(u, v)));
     const Vec3 joint = Vec3(0.62f, 0.58f, 0.50f) * (1.0f + 0.2f * fine(u, v));
-    return Grain{glm::mix(joint, stone, raised), 0.5f * raised + 0.03f * fine(u, v)};
+    return GroundGrain{glm::mix(joint, stone, raised), 0.5f * raised + 0.03f * fine(u, v)};
   });
 }
 
@@ -95,7 +95,7 @@ GroundTextures make_soil(std::uint64_t seed, int size) {
     const float round = clod ? smooth_step(0.02f, 0.35f, hit.border) : 0.0f, crumb = crumbs(u, v);
     const float light =
         0.80f + 0.22f * crumb + 0.10f * wide(u, v) + round * (0.10f + 0.25f * clods.random(hit.cell, 2));
-    return Grain{Vec3(1.03f, 1.0f, 0.96f) * light, 1.4f * round + 0.5f * crumb};
+    return GroundGrain{Vec3(1.03f, 1.0f, 0.96f) * light, 1.4f * round + 0.5f * crumb};
   });
 }
 
