@@ -76,7 +76,7 @@ void ProgressDisplay::show_until_stopped() {
                !stage.empty() && running - last_plain_s >= kPlainLineEvery_s) {
       last_plain_s = running;
       if (total < 2)
-        fmt::print(stderr, "{}\n", stage);
+        fmt::print(stderr, "{}, {:.0f} s\n", stage, elapsed);
       else
         fmt::print(stderr, "{}: {} of {} {}\n", stage, done, total, time_left(elapsed, share));
     }
