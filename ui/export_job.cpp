@@ -17,7 +17,8 @@ namespace bosquet::ui {
 namespace {
 
 // A triangle's share of vertices and indices as files store them, measured on the examples; images of a species.
-constexpr double kBytesPerTriangle = 66, kPackedBytesPerTriangle = 14, kImageBytesPerSpecies = 1.6e6;
+constexpr double kBytesPerTriangle = 66, kPackedBytesPerTriangle = 14, kWindBytesPerTriangle = 6,
+                 kImageBytesPerSpecies = 1.6e6;
 
 // A photograph-like picture of leaves packs badly: what PNG takes of a pixel in the examples' pictures.
 constexpr double kPictureBytesPerPixel = 2.1;
@@ -101,7 +102,8 @@ ExportSize estimate(const scene::GrownScene& scene, const ExportSettings& settin
   }
   if (settings.max_triangles > 0)
     size.triangles = std::min(size.triangles, static_cast<std::uint64_t>(settings.max_triangles));
-  const double each = settings.preset == ExportPreset::web ? kPackedBytesPerTriangle : kBytesPerTriangle;
+  double each = settings.preset == ExportPreset::web ? kPackedBytesPerTriangle : kBytesPerTriangle;
+  if (settings.preset == ExportPreset::engines) each += kWindBytesPerTriangle;
   const auto species = static_cast<double>(std::count(used.begin(), used.end(), true));
   size.bytes = static_cast<std::uint64_t>(each * static_cast<double>(size.triangles) + kImageBytesPerSpecies * species);
   return size;
@@ -179,6 +181,7 @@ Result<std::string> write_export(const ExportOrder& order, Progress* progress) {
   const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
   options.paintings = &paintings;
   if (picture) options.picture = order.view.camera, options.picture_height = order.view.height;
+  options.wind = !picture && order.settings.preset == ExportPreset::engines;
   auto built = scene::build_model(order.scene, options, progress);
   if (!built) return built.error();
   if (!picture) return write_model(built->model, built->triangles, order.settings, target, progress);

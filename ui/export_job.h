@@ -2,7 +2,7 @@
 //
 // Model     the trees are those that the pipeline has grown. A scene: meshes are built within the triangle budget; presets
 //           are what other programs open: everything (plain), Blender (plain), Unreal and Unity (plain with levels of
-//           detail), web (instanced and packed). A picture is drawn from the same meshes by a renderer of its own. All
+//           detail and wind weights), web (instanced and packed). A picture is drawn from the same meshes by a renderer of its own. All
 //           else is what the command makes of it (exchange/scene_files.h)
 // Size      a scene's follows from its triangles and images and a picture's from its pixels, by what the examples took;
 //           the others are so quickly made that they are written to a temporary file, measured and removed

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "exchange/gltf_info.h"
 #include "exchange/image_file.h"
 #include "exchange/tree_file.h"
 #include "growth/grow.h"
@@ -250,6 +251,25 @@ TEST_F(Import, AnExportIsAsLargeAsItWasToldToBe) {
   }
   EXPECT_FALSE(exchange::write_scene_file(scene, options, folder_ / "avenue.docx"));
   EXPECT_FALSE(exchange::write_scene_file(scene, {"Avenue", 3}, folder_ / "avenue.tree.json"));
+}
+
+TEST_F(Import, OnlyASceneForEnginesHasWindWeights) {
+  const auto grown = scene::grow_scene(scene::sample_document("rowan", {{15, 15}}, {30, 30}), {}, nullptr);
+  ASSERT_TRUE(grown);
+  for (const auto preset :
+       {ExportPreset::everything, ExportPreset::blender, ExportPreset::engines, ExportPreset::web}) {
+    ExportOrder order;
+    order.scene = *grown;
+    order.settings.preset = preset, order.settings.max_triangles = 20'000;
+    order.target = folder_ / "scene.glb";
+    ExportJob job;
+    job.start(std::move(order));
+    std::optional<std::string> said;
+    while (!(said = job.finished())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const auto info = exchange::read_gltf_info(folder_ / "scene.glb");
+    ASSERT_TRUE(info) << *said;
+    EXPECT_EQ(info->wind_meshes > 0, preset == ExportPreset::engines) << *said;
+  }
 }
 
 TEST_F(Import, APictureIsWrittenOfWhatTheCameraSees) {

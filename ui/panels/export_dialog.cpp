@@ -74,7 +74,7 @@ void scene_fields(ExportSettings& e) {
     e.preset = static_cast<ExportPreset>(preset);
   static constexpr std::array<const char*, 4> kPresets{
       "Opens everywhere: plain meshes and textures.", "Plain meshes, as Blender reads them.",
-      "Plain, each tree with its levels of detail as nodes.",
+      "Plain, each tree with its levels of detail as nodes, and with wind weights (_WIND) for shaders.",
       "Small: leaves instanced, everything packed. Needs a viewer that knows meshopt, such as three.js."};
   ImGui::TextWrapped("%s", kPresets[static_cast<std::size_t>(preset)]);
 }
