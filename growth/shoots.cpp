@@ -288,7 +288,6 @@ bool choose_growing(Tree& tree) {
   float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {
     Bud& b = buds[static_cast<std::size_t>(bud)];
-    const bool has_space = b.claims > 0;
     b.flow = b.signal;
     if (b.node >= 0) {
       const Internode& node = tree.internodes[static_cast<std::size_t>(b.node)];
@@ -297,7 +296,7 @@ bool choose_growing(Tree& tree) {
       b.flow = node.rate[way] * share[way];
     }
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
-    const bool may_grow = has_space | (b.node < 0);
+    const bool may_grow = (b.claims > 0) | (b.node < 0);
     greatest = std::max(greatest, may_grow ? b.flow : 0.0f);
     tree.enabled[enabled] = bud, enabled += may_grow;
     b.idle = static_cast<std::uint16_t>(b.idle + !may_grow);
