@@ -58,7 +58,8 @@ float gloss(vec3 n, vec3 v, float roughness) {
 }
 )";
 
-const char* const kSolidMain = R"(
+// main() of what stands on the ground; lit_surface() and both_sides() differ between wood and leaves.
+const char* const kSurfaceMain = R"(
 void main() {
   vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
   vec3 albedo = texel.rgb * base_factor.rgb * v_colour;
@@ -68,14 +69,20 @@ void main() {
   float distance_m = length(to_eye);
   vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
   vec3 surface = normalize(v_normal);
-  if (material.w > 0.5 && !gl_FrontFacing) surface = -surface;
-  vec3 n = bent_normal(surface, v_uv);
+  if (both_sides() && !gl_FrontFacing) surface = -surface;
+  vec3 light = lit_surface(albedo, surface, bent_normal(surface, v_uv), v, distance_m);
+  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
+}
+)";
+
+const char* const kSolid = R"(
+bool both_sides() { return material.w > 0.5; }
+vec3 lit_surface(vec3 albedo, vec3 surface, vec3 n, vec3 v, float distance_m) {
   float nl = dot(n, to_sun.xyz);
   float lit = dot(surface, to_sun.xyz) > 0.0 && nl > 0.0 ? sunlit(v_relative, surface, 0.10) : 0.0;
   float open = mix(0.36, 1.0, open_sky(v_relative + eye.xyz));
   vec3 light = albedo / pi * (sun_light.rgb * (lit * max(nl, 0.0)) + ambient_light(n) * open);
-  light += sun_light.rgb * (lit * gloss(n, v, material.x));
-  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
+  return light + sun_light.rgb * (lit * gloss(n, v, material.x));
 }
 )";
 
@@ -102,18 +109,9 @@ void main() {
 }
 )";
 
-const char* const kLeafMain = R"(
-void main() {
-  vec4 texel = maps.x > 0.5 ? texture(colour_map, v_uv) : vec4(1.0);
-  vec3 albedo = texel.rgb * base_factor.rgb * v_colour;
-  if (shading.x > 1.5) { out_colour = vec4(0.0, 0.0, 0.0, 1.0); return; }
-  if (shading.x > 0.5) { out_colour = vec4(albedo, 1.0); return; }
-  vec3 to_eye = view_point.xyz - v_relative;
-  float distance_m = length(to_eye);
-  vec3 v = view_point.w > 0.5 ? -forward.xyz : to_eye / distance_m;
-  vec3 surface = normalize(v_normal);
-  if (!gl_FrontFacing) surface = -surface;
-  vec3 n = bent_normal(surface, v_uv);
+const char* const kLeaf = R"(
+bool both_sides() { return true; }
+vec3 lit_surface(vec3 albedo, vec3 surface, vec3 n, vec3 v, float distance_m) {
   float nl = dot(n, to_sun.xyz);
   vec3 sunward = dot(surface, to_sun.xyz) > 0.0 ? surface : -surface;
   // The cards of a picture of a tree shade each other in stripes; its leaves would do so evenly.
@@ -128,7 +126,7 @@ void main() {
   light /= pi;
   // A wax shine, gone where leaves become too small to be seen one by one.
   if (nl > 0.0) light += sun_light.rgb * (lit * 0.35 * min(gloss(n, v, max(material.x, 0.45)), 0.12) * exp(-distance_m / 40.0));
-  out_colour = vec4(encoded(through_air(light, -v, distance_m)), 1.0);
+  return light;
 }
 )";
 

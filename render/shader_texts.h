@@ -13,9 +13,10 @@ extern const char* const kLight;
 // shader_surfaces.cpp: meshes, what stands on the ground, and shadow maps.
 extern const char* const kMeshVertex;
 extern const char* const kMeshFragment;
-extern const char* const kSolidMain;
+extern const char* const kSurfaceMain;
+extern const char* const kSolid;
 extern const char* const kLeafCover;
-extern const char* const kLeafMain;
+extern const char* const kLeaf;
 extern const char* const kShadowVertex;
 extern const char* const kShadowSolid;
 extern const char* const kShadowLeaf;

@@ -77,9 +77,9 @@ Result<Programs> Programs::make() {
     const char* name;
     std::string vertex, fragment;
   };
-  const Source sources[] = {{&Programs::solid, "solid", vertex, fragment + kSolidMain},
+  const Source sources[] = {{&Programs::solid, "solid", vertex, fragment + kSolid + kSurfaceMain},
                             {&Programs::leaf_cover, "leaf cover", vertex, frame + kLeafCover},
-                            {&Programs::leaf, "leaf", vertex, fragment + kLeafMain},
+                            {&Programs::leaf, "leaf", vertex, fragment + kLeaf + kSurfaceMain},
                             {&Programs::ground, "ground", vertex, fragment + kGroundMain},
                             {&Programs::water, "water", vertex, fragment + kWater + kWaterMain},
                             {&Programs::sky, "sky", frame + kSkyVertex, shared + kWater + kSkyFragment},
