@@ -1,4 +1,6 @@
-// Ground finish: the last step of every ground texture.
+// Ground finish: the last step of every ground texture, for meadow, lawn, gravel, paving and soil alike.
+//
+// Units     linear colours 0..1; the square's edge is that of the relief, and both repeat
 #pragma once
 
 #include <vector>

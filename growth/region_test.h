@@ -1,5 +1,7 @@
 // Region test: may something stand here, for all that a tree's crown region says?
 //
+// Frame     tree frame, metres
+// Holds     the region's numbers, ready for many places; the tree's input must outlive the use. All is open without a region
 // Decision  a region has no lid: above the tree's height its last layer counts, for growth ends there anyway, and a tip that
 //           sees no room just below would only be late
 #pragma once

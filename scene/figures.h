@@ -1,4 +1,6 @@
 // Figures: people for scale, as nodes of a model that is to be drawn.
+//
+// Frame     a figure's plan point (east, north) and heading become world places on the ground; metres
 #pragma once
 
 #include <span>
