@@ -191,6 +191,9 @@ ParsedLine parse_command_line(int argc, char** argv) {
   CLI::App app{"Bosquet: paint a forest, and every tree grows its own way.", "bosquet"};
   app.set_version_flag("--version", std::string("bosquet ") + kVersion);
   app.require_subcommand(0, 1);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) {
+    return std::string("bosquet: ") + e.what() + "\nRun with --help for more information.\n";
+  });
 
   CLI::App* make = app.add_subcommand(
       "make",
@@ -225,8 +228,10 @@ ParsedLine parse_command_line(int argc, char** argv) {
   add_scene(render, o), add_picture(render, o), add_common(render, o);
   render->callback([&] { o.command = Command::render; });
 
-  CLI::App* info = app.add_subcommand("info", "Says what is in a glTF file or a recipe");
-  info->add_option("file", o.file, ".glb, .gltf or recipe")->required()->option_text("FILE");
+  CLI::App* info = app.add_subcommand("info", "Says what is in a glTF file, a recipe or a project");
+  info->add_option("file", o.file, ".glb, .gltf, recipe (.toml) or project (.bosquet)")
+      ->required()
+      ->option_text("FILE");
   info->add_flag("--json", o.json, "As JSON");
   info->add_flag("--check", o.check,
                  "Judges a glTF file: bounds, instances, levels, packed data; exit status 1 if bad");
@@ -321,6 +326,8 @@ ParsedLine parse_command_line(int argc, char** argv) {
     app.parse(argc, argv);
     if (o.years.size() > 1 && o.command != Command::make)
       throw CLI::ValidationError("--year", "one age; only make takes several, a set of files for each");
+    if (o.slice_m && o.view != ViewKind::regions)
+      throw CLI::ValidationError("--slice", "cuts crown regions; it goes with --view regions");
     if (o.years.size() == 1) o.grow.year = o.years.front();
   } catch (const CLI::ParseError& e) {
     // A word that nothing knows is the mistake behind whatever else is missing then.

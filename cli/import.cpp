@@ -103,7 +103,8 @@ Result<void> run_import(const Options& options) {
   if (options.file.extension() != ".toml")
     return Error{fmt::format("{}: import adds to a recipe (.toml) or project (.bosquet){}", options.file.string(),
                              import_hint(options.file))};
-  if (options.dem.empty() && options.inventory.empty()) return Error{"import needs --dem FILE, --trees FILE or both"};
+  if (options.dem.empty() && options.inventory.empty())
+    return Error{"import needs --dem FILE, --trees FILE or both; into a project also --obstacle FILE"};
   auto text = old_text(options.file);
   if (!text) return text.error();
   const bool fresh = text->empty();

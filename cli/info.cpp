@@ -55,8 +55,8 @@ Json gltf_json(const exchange::GltfInfo& info) {
 void print_gltf(const exchange::GltfInfo& info, const std::string& file) {
   fmt::print("{}: glTF 2.0 by {}, {:.1f} MB\n", file, info.generator.empty() ? "unknown" : info.generator,
              static_cast<double>(info.file_bytes) / 1e6);
-  fmt::print("{} triangles, {} vertices, {} meshes, {} materials, {} images, {} cameras\n", info.triangles,
-             info.vertices, info.meshes, info.materials, info.images, info.cameras);
+  fmt::print("{} triangles, {} vertices, {} meshes, {} materials, {} images, {} camera{}\n", info.triangles,
+             info.vertices, info.meshes, info.materials, info.images, info.cameras, info.cameras == 1 ? "" : "s");
   if (info.wind_meshes > 0) fmt::print("wind weights (_WIND) on {} of the meshes\n", info.wind_meshes);
   if (auto east = number(info.extras, "site_east_m"), north = number(info.extras, "site_north_m"); east && north)
     fmt::print("site {:g} x {:g} m\n", *east, *north);
@@ -145,7 +145,7 @@ Result<void> run_info(const Options& options) {
   if (!options.check) return {};
   if (!check.good()) return Error{faults_text(check, options.file.string())};
   if (!options.json)
-    fmt::print("\nchecked: {} accessors, {} packed views, {} instances, {} nodes with levels; no faults\n",
+    fmt::print("\nchecked: {} accessors, {} packed views, {} instances, {} nodes with MSFT_lod; no faults\n",
                check.accessors, check.packed_views, check.instances, check.nodes_with_levels);
   return {};
 }

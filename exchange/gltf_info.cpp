@@ -111,7 +111,8 @@ Result<GltfInfo> read_gltf_info(const std::filesystem::path& path) {
   const Json& scene = member(root, "scene");
   info.extras = extras(member(element(member(root, "scenes"), scene.is_null() ? Json(0u) : scene), "extras"));
 
-  // Meshes used by many nodes are counted once, instances all; coarser levels by MSFT_lod are not drawn beside others.
+  // Meshes used by many nodes are counted once, instances all; coarser levels are not drawn beside the finest: those of
+  // MSFT_lod, and children NAME_LOD1, NAME_LOD2 ... of a node NAME.
   const Json &nodes = member(root, "nodes"), &meshes = member(root, "meshes");
   std::vector<std::optional<std::uint64_t>> per_mesh(info.meshes);
   std::vector<bool> coarser(length(nodes), false);
@@ -138,7 +139,6 @@ Result<GltfInfo> read_gltf_info(const std::filesystem::path& path) {
     if (instances.is_object() && !instances.empty())
       node.triangles =
           times(node.triangles, whole(member(element(member(root, "accessors"), *instances.begin()), "count")));
-    if (!coarser[i]) info.triangles = plus(info.triangles, node.triangles);
     info.nodes.push_back(std::move(node));
   }
 
@@ -146,14 +146,22 @@ Result<GltfInfo> read_gltf_info(const std::filesystem::path& path) {
   std::vector<std::size_t> parent(info.nodes.size(), info.nodes.size());
   for (std::size_t i = 0; i < info.nodes.size(); ++i)
     for (const Json& child : array(member(nodes[i], "children")))
-      if (child.is_number_unsigned() && child.get<std::uint64_t>() < parent.size())
-        parent[child.get<std::size_t>()] = i;
+      if (child.is_number_unsigned() && child.get<std::uint64_t>() < parent.size()) {
+        const auto c = child.get<std::size_t>();
+        parent[c] = i;
+        const std::string level = info.nodes[i].name + "_LOD";
+        if (info.nodes[c].name.starts_with(level) && info.nodes[c].name != level + "0") coarser[c] = true;
+      }
   std::vector<std::uint64_t> own;
   for (const GltfNode& node : info.nodes) own.push_back(node.triangles);
   for (std::size_t i = 0; i < own.size(); ++i) {
+    bool drawn = !coarser[i];
     std::size_t above = parent[i];
-    for (int step = 0; above < own.size() && step < kMostGenerations; ++step, above = parent[above])
+    for (int step = 0; drawn && above < own.size() && step < kMostGenerations; ++step, above = parent[above]) {
       info.nodes[above].triangles = plus(info.nodes[above].triangles, own[i]);
+      drawn = !coarser[above];
+    }
+    if (drawn) info.triangles = plus(info.triangles, own[i]);
   }
   return info;
 }

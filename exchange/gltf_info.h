@@ -20,7 +20,7 @@ struct GltfNode {
   std::string name;
   DVec3 translation{0.0};
   scene::Extras extras;         ///< numbers and texts; other JSON as its text
-  std::uint64_t triangles = 0;  ///< of its mesh and what hangs below it, instances counted
+  std::uint64_t triangles = 0;  ///< of its mesh and what hangs below it but coarser levels, instances counted
 };
 
 struct GltfInfo {

@@ -138,7 +138,12 @@ void read_ground(TomlTable& table, const std::filesystem::path& folder, GroundRe
     ground.noise.amplitude_m = 0.3f;
     describe(ground.noise, *noise), noise->finish();
   }
-  if (auto dem = table.text("dem")) ground.dem = folder / *dem;
+  if (auto dem = table.text("dem")) {
+    ground.dem = folder / *dem;
+    std::error_code ec;
+    if (!std::filesystem::exists(ground.dem, ec))
+      table.error("dem", fmt::format("there is no elevation file {}", ground.dem.string()));
+  }
   if (auto corner = table.numbers("dem_south_west", 2))
     ground.dem_south_west = {(*corner)[0], (*corner)[1]}, ground.dem_corner_given = true;
   if (auto heights = table.numbers("dem_heights_m", 2)) {

@@ -186,7 +186,7 @@ void draw_roots(PlanDrawing& plan, const std::vector<Crown>& crowns) {
 Result<void> draw_underlay(PlanDrawing& plan, const scene::Underlay& underlay) {
   if (underlay.file.empty()) return {};
   auto image = read_image(underlay.file);
-  if (!image) return Error{fmt::format("underlay {}", image.error().message)};
+  if (!image) return Error{fmt::format("[underlay]: {}", image.error().message)};
   PlanPicture picture;
   const double width = static_cast<double>(underlay.width_m);
   picture.low = underlay.south_west;

@@ -402,7 +402,7 @@ class Reader {
     if (auto file = table.text("file")) {
       hero.file = folder_ / *file;
       auto tree = read_tree(hero.file);
-      if (!tree) return tree.error();
+      if (!tree) return table.error("file", tree.error().message), Result<void>();
       if (auto index = species(table, "file", tree->species)) hero.species = *index;
       hero.tree = std::make_shared<const SavedTree>(std::move(*tree));
     } else if (!table.has("file")) {

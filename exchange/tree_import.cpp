@@ -292,9 +292,12 @@ Result<ImportedDocument> import_trees(const scene::Document& before, const std::
   if (!inventory) return inventory.error();
   if (inventory->trees.empty()) {
     const auto lines = problem_lines(inventory->problems, file.string(), inventory->features, 1);
-    return Error{lines.empty()
-                     ? fmt::format("{} has no tree", file.string())
-                     : fmt::format("{}: no row has a usable position on the site: {}", file.string(), lines.front())};
+    if (lines.empty()) return Error{fmt::format("{} has no tree", file.string())};
+    // Where only the site is wrong, what is left is to lay one out round the trees.
+    const bool elsewhere = lines.front().find("lies outside the site") != std::string::npos;
+    return Error{
+        fmt::format("{}: no row has a usable position on the site: {}{}", file.string(), lines.front(),
+                    elsewhere ? "; a site round the trees is made by: bosquet import NAME.toml --trees FILE" : "")};
   }
   if (!document.terrain) {
     const auto [corner, size] =

@@ -161,8 +161,7 @@ void CameraRig::step(float right_m, float ahead_m, const terrain::Terrain& groun
 void CameraRig::keep_above(const terrain::Terrain& ground) {
   if (plan_) return;
   const Vec3 now = eye();
-  const Vec2 at = to_plan(now);
-  if (!terrain::on_site(ground, at)) return;
+  const Vec2 at = to_plan(now);  // beyond the site the land goes on about as its edge is
   const float lift = ground.ground(at) + kLeastClearance_m - now.y;
   if (lift > 0.0f) target_.y += lift;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/random.h"
+#include "exchange/gltf_info.h"
 #include "exchange/gltf_writer.h"
 #include "sample_model.h"
 #include "scratch_folder.h"
@@ -85,6 +86,8 @@ TEST_F(GltfCheckTest, OurOwnFilesHaveNoFaults) {
           ASSERT_TRUE(write_gltf(leveled_model(), folder_ / file, options));
           const GltfCheck check = checked(file);
           EXPECT_TRUE(check.good()) << file << ": " << check.faults.front();
+          EXPECT_EQ(read_gltf_info(folder_ / file)->triangles, count(leveled_model()).triangles)
+              << "coarser levels are not drawn beside the finest";
           EXPECT_EQ(check.instances > 0, instancing);
           EXPECT_EQ(check.packed_views > 0, compression == Compression::meshopt);
           EXPECT_EQ(check.nodes_with_levels, lod == LodFiles::msft ? 3u : 0u);

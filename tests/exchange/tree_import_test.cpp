@@ -164,5 +164,15 @@ TEST(TreeImport, AFileWithoutATreeOnTheSiteIsRefused) {
   EXPECT_NE(made.error().message.find("t.csv:2: x is \"west\", not a number"), std::string::npos);
 }
 
+TEST(TreeImport, TreesOfAnotherPlaceAreRefusedWithTheWayToASiteOfTheirOwn) {
+  const ScratchFolder folder;
+  spit(folder / "here.csv", "x,y,species\n0,0,oak\n");
+  spit(folder / "t.csv", "x,y,species\n691010,5335020,oak\n");
+  const auto made = import_trees(imported({}, folder / "here.csv").document, folder / "t.csv");
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("lies outside the site"), std::string::npos);
+  EXPECT_NE(made.error().message.find("bosquet import NAME.toml --trees FILE"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace bosquet::exchange

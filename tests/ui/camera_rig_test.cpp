@@ -106,5 +106,12 @@ TEST(CameraRig, TheEyeIsLiftedOutOfTheGround) {
   EXPECT_GT(rig.eye().y, 0.0f);
 }
 
+TEST(CameraRig, TheEyeIsLiftedOutOfTheLandAroundTheSiteToo) {
+  CameraRig rig = looking_at({50, 0, -50}, {50, -10, 400});
+  ASSERT_FALSE(terrain::on_site(flat(), to_plan(rig.eye())));
+  rig.keep_above(flat());
+  EXPECT_GT(rig.eye().y, 0.0f);
+}
+
 }  // namespace
 }  // namespace bosquet::ui
