@@ -1,4 +1,5 @@
 # What every target of the project shares.
+include(GNUInstallDirs)
 add_library(bosquet_options INTERFACE)
 target_compile_features(bosquet_options INTERFACE cxx_std_20)
 target_include_directories(bosquet_options INTERFACE "${PROJECT_SOURCE_DIR}")
@@ -43,12 +44,18 @@ if(BOSQUET_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # bosquet_library(growth SOURCES a.cpp b.cpp PUBLIC targets... PRIVATE targets...)
-# makes the static library bosquet_growth with the alias bosquet::growth. PUBLIC only for what its headers show.
+# makes the static library bosquet_growth with the alias bosquet::growth, installed under the same name. PUBLIC only for
+# what its headers show.
 function(bosquet_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(bosquet_${name} STATIC ${arg_SOURCES})
   add_library(bosquet::${name} ALIAS bosquet_${name})
-  target_link_libraries(bosquet_${name} PUBLIC bosquet_options ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  set_target_properties(bosquet_${name} PROPERTIES EXPORT_NAME ${name})
+  # Programs that link the installed library get what its headers need and nothing of our warnings.
+  target_link_libraries(bosquet_${name} PUBLIC $<BUILD_INTERFACE:bosquet_options> ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_compile_features(bosquet_${name} PUBLIC cxx_std_20)
+  target_compile_options(bosquet_${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+  target_include_directories(bosquet_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/bosquet>)
 endfunction()
 
 # bosquet_test(growth SOURCES a_test.cpp ... LINK bosquet::growth [LABELS statistical])
