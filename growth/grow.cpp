@@ -98,7 +98,8 @@ Skeleton grow(const GrowthInput& input, const Progress* progress, GrowthWork* wo
   Skeleton grown = tree.wood;
   kept_trees().give(std::move(kept));
   grown.radius = radii(grown);
-  return input.detail == 1.0f ? grown : at_detail(grown, input.detail);
+  if (input.detail != 1.0f) return at_detail(grown, input.detail);
+  return grown;
 }
 
 std::uint64_t hash(const GrowthInput& input) {

@@ -4,6 +4,7 @@
 //           nothing fused
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -59,6 +60,10 @@ inline float smaller(float a, float b) {
 #else
   return a < b ? a : b;
 #endif
+}
+/// x where `so`, else 0, without a branch.
+inline float where(bool so, float x) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & -static_cast<std::uint32_t>(so));
 }
 /// Towards zero.
 inline Int4 whole(Float4 v) { return __builtin_convertvector(v, Int4); }

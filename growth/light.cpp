@@ -32,7 +32,17 @@ void tabulate_light_response(Tree& tree) {
   }
 }
 
-void sense_light(Tree& tree) {
+void place_buds(Tree& tree) {
+  if (tree.placed_in == tree.shadow.layout()) return;
+  tree.placed_in = tree.shadow.layout();
+  const ShadowGrid::Reader shadow = tree.shadow.reader();
+  for (const std::int32_t bud : tree.living) {
+    Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    b.place = shadow.place(b.at);
+  }
+}
+
+void sense_light(Tree& tree, std::span<const std::int32_t> of) {
   const ShadowGrid::Reader shadow = tree.shadow.reader();
   std::array<const float*, kOrders> response;
   for (std::size_t order = 0; order < kOrders; ++order) {
@@ -40,9 +50,9 @@ void sense_light(Tree& tree) {
   }
   Bud* const buds = tree.buds.each.data();
   Internode* const internodes = tree.internodes.each.data();
-  for (const std::int32_t bud : tree.living) {
+  for (const std::int32_t bud : of) {
     Bud& b = buds[bud];
-    const float light = larger(b.sky * shadow.exposure(b.at), kLeastLight);
+    const float light = larger(b.sky * shadow.exposure(b.place), kLeastLight);
     const float step = light * kLightSteps;
     const int i = static_cast<int>(step);
     const float* at = response[std::min<std::size_t>(b.order, kOrders - 1)] + i;

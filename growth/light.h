@@ -20,7 +20,9 @@ inline float light_at(const Tree& tree, const Vec3& p) {
 /// Tables of L^kappa for the distinct kappas in force.
 void tabulate_light_response(Tree& tree);
 
-/// Light at every living bud and its signal Q, told to its node.
-void sense_light(Tree& tree);
+/// Places of buds are made anew where the shadow's grid grew.
+void place_buds(Tree& tree);
+/// Light at these buds and their signal Q, told to their nodes.
+void sense_light(Tree& tree, std::span<const std::int32_t> of);
 
 }  // namespace bosquet::growth

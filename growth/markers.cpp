@@ -64,9 +64,10 @@ void PerceptionSamples::make(Points& p) {
 void CompetitorIndex::build(std::span<const Competitor> competitors, float reach_m, float cos_half_angle) {
   cos_ = cos_half_angle, wide_ = wide_here();
   const std::size_t n = competitors.size();
-  x_.resize(n + kPastEnd), y_.resize(n + kPastEnd), z_.resize(n + kPastEnd);
-  along_x_.resize(n + kPastEnd), along_y_.resize(n + kPastEnd), along_z_.resize(n + kPastEnd),
-      bud_.resize(n + kPastEnd);
+  if (x_.size() < n + kPastEnd) {
+    for (std::vector<float>* list : {&x_, &y_, &z_, &along_x_, &along_y_, &along_z_}) list->resize(n + kPastEnd);
+    bud_.resize(n + kPastEnd), cell_of_.resize(n);
+  }
   cells_ = IVec3(0);
   if (n == 0) return;
   Box3 box;
@@ -90,7 +91,6 @@ void CompetitorIndex::build(std::span<const Competitor> competitors, float reach
 
   // Counting sort by cell; within a cell the order given (by bud) stays.
   start_.assign(cells + 1, 0);
-  cell_of_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const IVec3 c = glm::min(IVec3((competitors[i].at - low_) * inverse_), cells_ - 1);
     cell_of_[i] = (c.x * cells_.z + c.z) * cells_.y + c.y;

@@ -113,7 +113,8 @@ void Occupancy::lay_out(IVec3 first, IVec3 cells) {
 void Occupancy::close() {
   const std::size_t layer = static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.z);
   const auto width = static_cast<std::size_t>(cells_.x);
-  taken_.resize(layer * static_cast<std::size_t>(cells_.y) + kRow);
+  const std::size_t all = layer * static_cast<std::size_t>(cells_.y) + kRow;
+  if (taken_.size() < all) taken_.resize(all);
   const auto at = [&](int cell, int axis) {
     return static_cast<float>(cell + first_[axis] - static_cast<int>(kOrigin)) * cell_m_;
   };
@@ -121,7 +122,7 @@ void Occupancy::close() {
   std::fill_n(taken_.begin(), layer * static_cast<std::size_t>(ground), kClosed);
   const auto above = taken_.begin() + static_cast<std::ptrdiff_t>(layer * static_cast<std::size_t>(ground));
   if (!region_) {
-    std::fill(above, taken_.end(), std::uint8_t{0});
+    std::fill(above, taken_.begin() + static_cast<std::ptrdiff_t>(all), std::uint8_t{0});
     return;
   }
   const crowns::CrownRegion& r = *region_;

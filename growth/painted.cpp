@@ -13,12 +13,14 @@ namespace bosquet::growth {
 
 void claim_painted(Tree& tree, std::span<const std::int32_t> living) {
   Buds& buds = tree.buds;
-  tree.competing.clear();
+  Competitor* const competing = tree.competing.make_room(living.size());
+  std::size_t count = 0;
   for (const std::int32_t bud : living) {
     Bud& b = buds[static_cast<std::size_t>(bud)];
     b.claims = 0;
-    tree.competing.push_back({b.at, bud, b.direction});
+    competing[count++] = {b.at, bud, b.direction};
   }
+  tree.competing.keep(count);
   tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
   std::size_t kept = 0;
   for (const Vec3& marker : tree.markers) {

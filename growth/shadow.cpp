@@ -23,10 +23,26 @@ void ShadowGrid::reset(const Box3& room, const Vec3& anchor, float cell_m, float
       static_cast<std::size_t>(cells_.x) * static_cast<std::size_t>(cells_.y) * static_cast<std::size_t>(cells_.z);
   sum_.assign(cells + kPastPyramid, 0);
   waiting_.resize(std::max(waiting_.size(), cells));
+  prepare();
+}
+
+void ShadowGrid::prepare() {
+  const std::int32_t row = cells_.x, side = depth_ + 1;
+  reader_ = {lanes(anchor_),
+             all4(inverse_),
+             Int4{first_.x, first_.y, first_.z, 0},
+             Int4{cells_.x, cells_.y, cells_.z, 1},
+             row,
+             row * cells_.z,
+             amount_[0],
+             sum_.data()};
+  inner_low_ = Int4{side, 0, side, 0};
+  inner_end_ = reader_.cells - inner_low_;
 }
 
 void ShadowGrid::make_room(IVec3 c) {
   settle();
+  ++layout_;
   // A quarter more on every side that is too small.
   const int side = depth_ + 1;
   IVec3 before{0}, after{0};
@@ -52,18 +68,20 @@ void ShadowGrid::make_room(IVec3 c) {
       std::copy(from, from + old_cells.x, sum_.data() + index({before.x, j + before.y, k + before.z}));
     }
   }
+  prepare();
 }
 
-void ShadowGrid::count(const Vec3& p, int change) {
-  IVec3 c = cell(p);
-  const int side = depth_ + 1;
-  if (c.x < side || c.z < side || c.y < 0 || c.x >= cells_.x - side || c.z >= cells_.z - side || c.y >= cells_.y) {
-    make_room(c);
-    c = cell(p);
+std::int32_t ShadowGrid::count(const Vec3& p, int change) {
+  Int4 c = reader_.cell(p);
+  if (!all((c >= inner_low_) & (c < inner_end_))) {
+    make_room({c[0], c[1], c[2]});
+    c = reader_.cell(p);
   }
-  std::int32_t& waiting = waiting_[index(c)];
-  if (waiting == 0) changed_.push_back(c);
+  const std::int32_t place = reader_.number(c);
+  std::int32_t& waiting = waiting_[static_cast<std::size_t>(place)];
+  if (waiting == 0) changed_.push_back({c[0], c[1], c[2]});
   waiting += change;
+  return place;
 }
 
 std::size_t ShadowGrid::settle() {

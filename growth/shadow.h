@@ -28,8 +28,11 @@ class ShadowGrid {
   /// `anchor`, which stands on the ground.
   void reset(const Box3& room, const Vec3& anchor, float cell_m, float strength, float falloff, int depth);
 
-  void cast(const Vec3& p) { count(p, 1); }
+  /// Returns p's place, in this layout.
+  std::int32_t cast(const Vec3& p) { return count(p, 1); }
   void take_back(const Vec3& p) { count(p, -1); }
+  /// Another one once the grid grew: places of before are void.
+  int layout() const { return layout_; }
   /// Brings the sums up to date; returns how many cells' shadows changed.
   std::size_t settle();
 
@@ -37,8 +40,8 @@ class ShadowGrid {
   struct Reader {
     Float4 anchor, inverse;
     Int4 first, cells;
-    std::ptrdiff_t row, layer;  ///< numbers from one row and layer to the next
-    std::int32_t own;           ///< what an internode takes from its own cell
+    std::int32_t row, layer;  ///< numbers from one row and layer to the next
+    std::int32_t own;         ///< what an internode takes from its own cell
     const std::int32_t* sum;
 
     Int4 cell(const Vec3& p) const {
@@ -47,47 +50,42 @@ class ShadowGrid {
       // Towards zero is one too high below zero: the comparison is -1 there.
       return c + (__builtin_convertvector(c, Float4) > q) - first;
     }
+    std::int32_t number(Int4 cell) const { return cell[1] * layer + cell[2] * row + cell[0]; }
+    /// Of p's cell, for p in the grid.
+    std::int32_t place(const Vec3& p) const { return number(cell(p)); }
     float exposure(const Vec3& p) const {
       const Int4 c = cell(p);
-      if (!all((c >= Int4{}) & (c < cells))) return 1.0f;
-      const std::int32_t s = sum[c[1] * layer + c[2] * row + c[0]] - own;
+      return all((c >= Int4{}) & (c < cells)) ? exposure(number(c)) : 1.0f;
+    }
+    float exposure(std::int32_t place) const {
+      const std::int32_t s = sum[place] - own;
       return 1.0f - static_cast<float>(std::min(std::max(s, 0), static_cast<std::int32_t>(kUnit))) * (1.0f / kUnit);
     }
   };
-  Reader reader() const {
-    const auto row = static_cast<std::ptrdiff_t>(cells_.x);
-    return {lanes(anchor_),
-            all4(inverse_),
-            Int4{first_.x, first_.y, first_.z, 0},
-            Int4{cells_.x, cells_.y, cells_.z, 1},
-            row,
-            row * cells_.z,
-            amount_[0],
-            sum_.data()};
-  }
+  const Reader& reader() const { return reader_; }
 
   /// Light that the tree's own wood leaves at p, where an internode of its own stands: clamp(1 - s + a, 0, 1).
-  float exposure(const Vec3& p) const { return reader().exposure(p); }
+  float exposure(const Vec3& p) const { return reader_.exposure(p); }
 
  private:
-  IVec3 cell(const Vec3& p) const {
-    const Int4 c = reader().cell(p);
-    return {c[0], c[1], c[2]};
-  }
   std::size_t index(IVec3 c) const {
     return (static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells_.z) + static_cast<std::size_t>(c.z)) *
                static_cast<std::size_t>(cells_.x) +
            static_cast<std::size_t>(c.x);
   }
-  void count(const Vec3& p, int change);
+  std::int32_t count(const Vec3& p, int change);
   void add(IVec3 c, int times);
   void make_room(IVec3 c);
+  void prepare();
 
   Vec3 anchor_{0.0f};
   float inverse_ = 1.0f;
   IVec3 first_{0};  ///< lowest cell, from the anchor
   IVec3 cells_{0};
   int depth_ = 1;
+  int layout_ = 0;
+  Reader reader_{};                 ///< of the present grid
+  Int4 inner_low_{}, inner_end_{};  ///< cells whose pyramids fit into it
   std::array<std::int32_t, kMostShadowDepth + 1> amount_{};
   std::vector<std::int32_t> sum_, old_;  ///< and kPastPyramid more
   std::vector<std::int32_t> waiting_;    ///< change of the wood in a cell since the last settle; 0 beyond the grid

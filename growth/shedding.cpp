@@ -41,7 +41,7 @@ bool outgrown(const Tree& tree, std::int32_t node) {
 }
 
 void shed(Tree& tree) {
-  if (tree.failing.empty()) return;
+  if (tree.failing.size() == 0) return;
   Skeleton& wood = tree.wood;
   const auto fallen = [&](std::int32_t i) { return i >= 0 && !wood.alive(static_cast<std::size_t>(i)); };
   // What stands on shed wood falls with it, and so do the bare internodes below it.

@@ -123,7 +123,7 @@ void set_lateral_buds(Tree& tree, std::int32_t carrier, std::size_t tip, const G
       const auto b = static_cast<std::size_t>(bud);
       buds.origin[b].carrier = carrier;
       buds[b].factor = bud_factor(habit, heading, azimuth, x);
-      buds[b].sky = buds[tip].sky;
+      buds[b].sky = buds[tip].sky, buds[b].place = buds[tip].place;
       tree.living.push_back(bud);
       azimuth = p.planar ? -azimuth : turned(azimuth, heading, between.sin, between.cos);
     }
@@ -219,7 +219,7 @@ bool add_metamer(Tree& tree, const RegionTest& in_its_region, const GrowingBud& 
       normalised_or(buds.origin[b].side - glm::dot(buds.origin[b].side, heading) * heading, basis_around(heading).x);
   buds[b].factor = 1.0f;
   if (tree.input->light) buds[b].sky = tree.input->light->at(end);
-  tree.shadow.cast(end);
+  buds[b].place = tree.shadow.cast(end);
   tree.occupancy.add(end);
   ++tree.work.shadow_updates;
   tree.height_m = std::max(tree.height_m, end.y);
@@ -246,8 +246,9 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
   Buds& buds = tree.buds;
   const auto f = static_cast<std::size_t>(first);
   const Vec3 pivot = wood.proximal(f);
+  std::int32_t place = 0;  // of the wood turned last
   const auto move_bud = [&](std::size_t b, const Vec3& at) {
-    buds[b].at = at;
+    buds[b].at = at, buds[b].place = place;
     buds[b].direction = turned(buds[b].direction, axis, sin, cos);
     buds.origin[b].side = turned(buds.origin[b].side, axis, sin, cos);
     if (tree.input->light) buds[b].sky = tree.input->light->at(at);
@@ -263,7 +264,7 @@ void turn_shoot(Tree& tree, std::int32_t first, const Vec3& axis, float sin, flo
     tree.shadow.take_back(before);
     wood.distal[n] = pivot + turned(before - pivot, axis, sin, cos);
     in.parts[n].heading = turned(in.parts[n].heading, axis, sin, cos);
-    tree.shadow.cast(wood.distal[n]);
+    place = tree.shadow.cast(wood.distal[n]);
     tree.occupancy.move(before, wood.distal[n]);
     ++tree.work.shadow_updates;
     tree.height_m = std::max(tree.height_m, wood.distal[n].y);
@@ -283,7 +284,7 @@ bool choose_growing(Tree& tree) {
   };
 
   // No branch on a bud's state or space, which could not be guessed.
-  tree.enabled.resize(tree.living.size());
+  std::int32_t* const list = tree.enabled.make_room(tree.living.size());
   std::size_t enabled = 0;
   float greatest = 0.0f;
   for (const std::int32_t bud : tree.living) {
@@ -297,12 +298,12 @@ bool choose_growing(Tree& tree) {
     }
     // The foot of a stem needs no marker: a tree begins even where its region leaves it hardly any room.
     const bool may_grow = (b.claims > 0) | (b.node < 0);
-    greatest = std::max(greatest, may_grow ? b.flow : 0.0f);
-    tree.enabled[enabled] = bud, enabled += may_grow;
+    greatest = larger(greatest, where(may_grow, b.flow));
+    list[enabled] = bud, enabled += may_grow;
     b.idle = static_cast<std::uint16_t>(b.idle + !may_grow);
     if (b.idle >= life) starve(b);
   }
-  tree.enabled.resize(enabled), tree.greatest_vigor = greatest;
+  tree.enabled.keep(enabled), tree.greatest_vigor = greatest;
 
   tree.growing.clear();
   for (const std::int32_t bud : tree.enabled) {
@@ -344,7 +345,8 @@ bool extend(Tree& tree) {
     std::size_t kept = 0;
     for (GrowingBud g : tree.growing) {
       if (tree.buds[static_cast<std::size_t>(g.bud)].claims == 0 || !add_metamer(tree, in_its_region, g)) continue;
-      if (++g.made < g.planned) tree.growing[kept++] = g;
+      ++g.made;
+      tree.growing[kept] = g, kept += g.made < g.planned;
     }
     tree.growing.resize(kept);
     if (tree.height_m >= tree.input->max_height_m) return true;

@@ -23,10 +23,12 @@ namespace {
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
 
-/// Makes the markers of one bud after another; what they are made of stands beside each other.
+constexpr std::size_t kAtOnce = 64;  ///< buds whose markers stay in the first-level cache until they are looked up
+
+/// Makes the markers of one bud after another; what they are made of stands beside each other. Begins a round.
 class Dropping {
  public:
-  Dropping(Tree& tree, std::size_t buds)
+  explicit Dropping(Tree& tree)
       : buds_(tree.buds.each.data()),
         samples_(tree.samples.reader()),
         cell_of_(tree.occupancy.cell_finder()),
@@ -36,7 +38,8 @@ class Dropping {
         greatest_(tree.greatest_vigor),
         planar_(tree.parameters->planar) {
     DroppedMarkers& d = tree.dropped;
-    d.make_room(buds * (1 + static_cast<std::size_t>(rate_)) + PerceptionSamples::kMost);
+    d.make_room(kAtOnce * (1 + static_cast<std::size_t>(rate_)) + PerceptionSamples::kMost);
+    d.standing.keep(0), tree.competing.keep(0);
     x_ = d.x.data(), y_ = d.y.data(), z_ = d.z.data(), cell_ = d.cell.data(), bud_ = d.bud.data();
   }
 
@@ -63,6 +66,7 @@ class Dropping {
       count_ += static_cast<std::size_t>(std::min(4, markers - m));
     }
   }
+  void forget() { count_ = 0; }
   std::size_t count() const { return count_; }
   const RandomStream& random() const { return random_; }
 
@@ -96,19 +100,28 @@ void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, s
   }
 }
 
-/// Looks the markers up, then claims the few that stand: no step waits for another.
-void claim_dropped(Tree& tree, const RegionTest& in_its_region, std::size_t count) {
+/// Drops the markers of some buds and lists those that may stand.
+void drop(Tree& tree, const RegionTest& in_its_region, Dropping& dropping, std::span<const std::int32_t> buds) {
+  dropping.forget();
+  for (const std::int32_t bud : buds) {
+    const std::size_t first = dropping.count();
+    dropping.drop(bud);
+    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, dropping.count());
+  }
+
+  // No step waits for another: lists are written ahead and grow by 0 or 1, for which it is could not be guessed.
   DroppedMarkers& d = tree.dropped;
+  const std::size_t count = dropping.count();
   tree.work.markers_tested += count;
   std::size_t free = 0;
   for (std::size_t i = 0; i < count; ++i) {
     d.free[free] = static_cast<std::int32_t>(i);
     free += tree.occupancy.state(d.cell[i]) == 0;
   }
-
-  // Lists are written ahead and grow by 0 or 1: which it is could not be guessed.
-  tree.competing.resize(free);
-  std::size_t standing = 0, competing = 0;
+  std::size_t standing = d.standing.size(), competing = tree.competing.size();
+  Marker* const markers = d.standing.make_room(standing + free);
+  Competitor* const competitors = tree.competing.make_room(competing + free);
   std::int32_t last = kNone;
   for (std::size_t k = 0; k < free; ++k) {
     const auto i = static_cast<std::size_t>(d.free[k]);
@@ -116,62 +129,72 @@ void claim_dropped(Tree& tree, const RegionTest& in_its_region, std::size_t coun
     const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
     const float ground = b.order == 0 ? 0.0f : tree.input->clear_stem_m;  // the trunk must get there
     const bool stands = (d.y[i] > ground) & in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f});
-    d.free[standing] = d.free[k], standing += stands;
-    tree.competing[competing] = {b.at, bud, b.direction}, competing += stands & (bud != last);
+    const Vec3 at{d.x[i], d.y[i], d.z[i]}, to = at - b.at;
+    markers[standing] = {at, bud, std::sqrt(glm::dot(to, to))}, standing += stands;
+    competitors[competing] = {b.at, bud, b.direction}, competing += stands & (bud != last);
     last = stands ? bud : last;
   }
-  tree.competing.resize(competing);
+  d.standing.keep(standing), tree.competing.keep(competing);
+}
+
+/// Who gets the markers that may stand.
+void claim_standing(Tree& tree) {
   tree.competitors.build(tree.competing, tree.reach_m, tree.cos_perception);
-  for (std::size_t k = 0; k < standing; ++k) {
-    const auto i = static_cast<std::size_t>(d.free[k]);
-    const Vec3 marker{d.x[i], d.y[i], d.z[i]};
-    const Vec3 to = marker - tree.buds[static_cast<std::size_t>(d.bud[i])].at;
-    const std::int32_t winner = tree.competitors.nearest(marker, std::sqrt(glm::dot(to, to)), d.bud[i]);
-    claim(tree, winner, normalised_or(marker - tree.buds[static_cast<std::size_t>(winner)].at, Vec3{0.0f}));
+  for (Marker& m : tree.dropped.standing) m.bud = tree.competitors.nearest(m.at, m.from_m, m.bud);
+  for (const Marker& m : tree.dropped.standing) {
+    claim(tree, m.bud, normalised_or(m.at - tree.buds[static_cast<std::size_t>(m.bud)].at, Vec3{0.0f}));
   }
 }
 
-void drop_and_claim(Tree& tree, std::span<const std::int32_t> buds) {
-  const RegionTest in_its_region(tree);
-  Dropping dropping(tree, buds.size());
-  for (const std::int32_t bud : buds) {
-    const std::size_t first = dropping.count();
-    dropping.drop(bud);
-    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, dropping.count());
-  }
-  tree.random = dropping.random();
-  claim_dropped(tree, in_its_region, dropping.count());
-}
-
-/// Buds that died, or whose wood fell, leave the list.
-void weed_out(Tree& tree) {
-  std::size_t living = 0;
-  for (const std::int32_t bud : tree.living) {
+/// Of some living buds, those that died, or whose wood fell, leave the list, which is written again from `to` on.
+std::size_t weed_out(Tree& tree, std::size_t from, std::size_t end, std::size_t to) {
+  const std::uint16_t* const shed = tree.wood.shed.data();
+  for (std::size_t n = from; n < end; ++n) {
+    const std::int32_t bud = tree.living[n];
     Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    const bool lives = b.state != BudState::dead && (b.node < 0 || tree.wood.alive(static_cast<std::size_t>(b.node)));
+    const std::uint16_t* const of_node = b.node < 0 ? &kNever : shed + b.node;
+    const bool lives = (b.state != BudState::dead) & (*of_node == kNever);
     if (!lives) b.state = BudState::dead;
-    tree.living[living] = bud, living += lives;
+    tree.living[to] = bud, to += lives;
   }
-  tree.living.resize(living);
-  tree.work.bud_visits += living;
+  return to;
 }
 
 }  // namespace
 
 void sense(Tree& tree) {
   tree.work.shadow_cells += tree.shadow.settle();
-  weed_out(tree);
-  sense_light(tree);
-  if (!tree.input->markers.empty()) return claim_painted(tree, tree.living);
-  drop_and_claim(tree, tree.living);
+  place_buds(tree);
+  const bool painted = !tree.input->markers.empty();
+  const RegionTest in_its_region(tree);
+  Dropping dropping(tree);
+  std::size_t living = 0;
+  for (std::size_t n = 0; n < tree.living.size(); n += kAtOnce) {
+    const std::size_t end = weed_out(tree, n, std::min(n + kAtOnce, tree.living.size()), living);
+    const std::span<const std::int32_t> buds{tree.living.data() + living, end - living};
+    sense_light(tree, buds);
+    if (!painted) drop(tree, in_its_region, dropping, buds);
+    living = end;
+  }
+  tree.living.resize(living);
+  tree.work.bud_visits += living;
+  if (painted) return claim_painted(tree, tree.living);
+  tree.random = dropping.random();
+  claim_standing(tree);
 }
 
 void compete_again(Tree& tree) {
   tree.extending.clear();
   for (const GrowingBud& g : tree.growing) tree.extending.push_back(g.bud);
   if (!tree.input->markers.empty()) return claim_painted(tree, tree.extending);
-  drop_and_claim(tree, tree.extending);
+  const RegionTest in_its_region(tree);
+  Dropping dropping(tree);
+  const std::span<const std::int32_t> buds(tree.extending);
+  for (std::size_t n = 0; n < buds.size(); n += kAtOnce) {
+    drop(tree, in_its_region, dropping, buds.subspan(n, std::min(kAtOnce, buds.size() - n)));
+  }
+  tree.random = dropping.random();
+  claim_standing(tree);
 }
 
 }  // namespace bosquet::growth

@@ -51,6 +51,7 @@ void add_stem(Tree& tree, float lean, float azimuth) {
   buds.origin[b].side =
       tree.parameters->planar ? Vec3{direction.y, -direction.x, 0.0f} : around.x * first.cos + around.y * first.sin;
   buds.origin[b].axis = tree.axes++;
+  buds[b].place = tree.shadow.reader().place(Vec3{0.0f});
   buds[b].sky = tree.input->light ? tree.input->light->at(Vec3{0.0f}) : 1.0f;
   tree.tip_of.push_back(bud);
   tree.living.push_back(bud);
@@ -89,7 +90,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   wood.tip_diameter_m = p.tip_diameter_m * (length / p.internode_length_m);
   wood.pipe_exponent = p.pipe_exponent;
   tree.internodes.clear(), tree.buds.clear(), tree.living.clear(), tree.tip_of.clear(), tree.growing.clear();
-  tree.standing.clear(), tree.thinned.clear(), tree.failing.clear();
+  tree.standing.clear(), tree.thinned.clear(), tree.failing.keep(0);
   tree.listed = 0, tree.greatest_vigor = 0.0f;
 
   // Cells of shadow stand where they would without a region, so that a region with room enough changes nothing.
@@ -97,6 +98,7 @@ void plant(Tree& tree, const GrowthInput& input) {
   const float aside = kShadowCell * length * static_cast<float>(p.shadow_depth + 1);
   const Vec3 anchor = expected_room(input, nullptr, tree.reach_m).low - Vec3{aside, 0.0f, aside};
   tree.shadow.reset(room, anchor, kShadowCell * length, p.shadow_strength, p.shadow_falloff, p.shadow_depth);
+  tree.placed_in = tree.shadow.layout();
   tree.occupancy.reset(room, tree.occupied_m, tree.reach_m, input.region,
                        input.region ? input.max_height_m - input.region->layer_m : 0.0f,
                        input.max_height_m / kMostCells);

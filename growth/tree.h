@@ -22,6 +22,7 @@
 #include "growth/occupancy.h"
 #include "growth/shadow.h"
 #include "growth/skeleton.h"
+#include "growth/written_ahead.h"
 
 namespace bosquet::growth {
 
@@ -80,6 +81,7 @@ struct alignas(64) Bud {
   std::uint16_t idle = 0;     ///< seasons without space or light
   std::uint8_t order = 0;     ///< of the axis that it makes or continues
   BudState state = BudState::lateral;
+  std::int32_t place = 0;            ///< its cell in the shadow
   std::int32_t claims = 0;           ///< how many markers it got this season
   float signal = 0.0f, flow = 0.0f;  ///< Q, v as last shared
 };
@@ -117,12 +119,20 @@ struct GrowingBud {
   bool continues;  ///< the axis was there before this season
 };
 
-/// Markers of one round, bud by bud.
+/// A marker, and the bud that dropped it.
+struct Marker {
+  Vec3 at;
+  std::int32_t bud;
+  float from_m;
+};
+
+/// Markers of some buds, one bud after another.
 struct DroppedMarkers {
   std::vector<float> x, y, z;
   std::vector<std::int32_t> cell;  ///< of the occupancy
   std::vector<std::int32_t> bud;   ///< that dropped it
-  std::vector<std::int32_t> free;  ///< markers that nothing refuses
+  std::vector<std::int32_t> free;  ///< markers whose cells are
+  WrittenAhead<Marker> standing;   ///< of all buds of this round
   void make_room(std::size_t count) {
     if (count <= x.size()) return;
     x.resize(count), y.resize(count), z.resize(count), cell.resize(count), bud.resize(count), free.resize(count);
@@ -162,18 +172,19 @@ struct Tree {
   std::vector<std::int32_t> standing;  ///< living internodes before this season's, in birth order, without bare ones
   std::vector<std::int32_t> thinned;   ///< internodes that may have become bare
   std::size_t listed = 0;              ///< internodes born before this season
-  std::vector<std::int32_t> failing;   ///< of these, where branches begin that have too little vigor
-  std::vector<std::int32_t> enabled;   ///< buds with space this season
+  WrittenAhead<std::int32_t> failing;  ///< of these, where branches begin that have too little vigor
+  WrittenAhead<std::int32_t> enabled;  ///< buds with space this season
   std::vector<GrowingBud> growing;
   std::vector<std::int32_t> extending;  ///< buds of these
   float greatest_vigor = 0;             ///< v_max
 
   // Where it stands.
   ShadowGrid shadow;
+  int placed_in = 0;  ///< layout of the shadow that the places of buds are of
   Occupancy occupancy;
   PerceptionSamples samples;
   CompetitorIndex competitors;
-  std::vector<Competitor> competing;
+  WrittenAhead<Competitor> competing;
   DroppedMarkers dropped;
   std::vector<Vec3> markers;               ///< painted ones, not yet consumed
   float highest_marker_m = 0;              ///< of those painted
@@ -212,7 +223,8 @@ void claim_painted(Tree& tree, std::span<const std::int32_t> buds);
 inline void claim(Tree& tree, std::int32_t bud, const Vec3& way) {
   const auto b = static_cast<std::size_t>(bud);
   Vec3& claimed = tree.buds.claimed[b];
-  claimed = claimed * static_cast<float>(tree.buds[b].claims++ != 0) + way;  // no branch
+  const bool more = tree.buds[b].claims++ != 0;
+  claimed = Vec3{where(more, claimed.x), where(more, claimed.y), where(more, claimed.z)} + way;
 }
 
 /// Signal down, vigor up (vigor.cpp): finds the branches that fail.

@@ -68,8 +68,8 @@ struct OrderNumbers {
 void fill_in_vigor(Tree& tree) {
   std::vector<float>& vigor = tree.wood.vigor;
   for (std::size_t i = tree.listed; i-- > 0;) {
-    if (tree.internodes[i].span > 0 || !tree.wood.alive(i)) continue;
-    vigor[i] = vigor[static_cast<std::size_t>(tree.internodes.parts[i].next)];
+    const bool bare = (tree.internodes[i].span == 0) & tree.wood.alive(i);
+    vigor[i] = vigor[bare ? static_cast<std::size_t>(tree.internodes.parts[i].next) : i];
   }
 }
 
@@ -97,8 +97,7 @@ void share_vigor(Tree& tree) {
     const Habit& habit = tree.habits[order];
     numbers[order] = {habit.lambda, 1.0f - habit.lambda, due * habit.shedding};
   }
-  tree.failing.resize(listed);
-  std::int32_t* const failing = tree.failing.data();
+  std::int32_t* const failing = tree.failing.make_room(listed);
   float* const vigor = tree.wood.vigor.data();
   const bool lifts = tree.parameters->crown_lift > 0.0f;
   std::size_t fail = 0, kept = 0;
@@ -111,7 +110,7 @@ void share_vigor(Tree& tree) {
     const float main = order.lambda * i.gathered[kMainSignal];
     const float q = i.gathered[kMainSignal] + i.gathered[kLateralSignal];
     const float sum = main + order.rest * i.gathered[kLateralSignal];
-    const float part = sum > 0.0f ? 1.0f / sum : 0.0f;
+    const float part = where(sum > 0.0f, 1.0f / sum);
     float v = q;
     if (i.parent >= 0) {
       const std::array<float, 2> share{1.0f, q};
@@ -124,7 +123,7 @@ void share_vigor(Tree& tree) {
     i.rate[kLateral] = v * (order.rest * part);
     i.gathered = Float4{0.0f, 0.0f, static_cast<float>(i.span), 0.0f};
   }
-  tree.failing.resize(fail), tree.standing.resize(kept);
+  tree.failing.keep(fail), tree.standing.resize(kept);
 }
 
 }  // namespace bosquet::growth
