@@ -7,6 +7,7 @@
 
 #include "core/hash.h"
 #include "exchange/site_frame.h"
+#include "terrain/curve.h"
 
 namespace bosquet::exchange {
 namespace {
@@ -29,6 +30,11 @@ std::vector<Vec2> near_points(TomlTable& table, std::string_view key, std::size_
 std::vector<Vec2> required_points(TomlTable& table, std::string_view key, std::size_t least) {
   if (!table.has(key)) table.error("", fmt::format("{} = [[east, north], ...] is missing", key));
   return near_points(table, key, least);
+}
+
+// The points of an outline or line, as they are or as what a curve is drawn through.
+void read_curve(TomlTable& table, std::vector<Vec2>& points, bool closed) {
+  if (table.boolean("curve").value_or(false) && !points.empty()) points = terrain::curve_through(points, closed);
 }
 
 void read_cover(TomlTable& table, AreaRecipe& out) {
@@ -76,6 +82,8 @@ void read_area(TomlTable& table, const std::filesystem::path& folder, GroundReci
                 "file = \"paths.geojson\"");
   out.polygon = near_points(table, "polygon", 3);
   out.points = near_points(table, "points", 2);
+  if (table.has("curve") && !out.file.empty()) table.error("curve", "curve is for polygon and points");
+  read_curve(table, out.polygon.empty() ? out.points : out.polygon, !out.polygon.empty());
   out.width_m = static_cast<float>(table.number("width_m", 0.1, 1000).value_or(2.0));
   out.layer = table.text("layer").value_or("");
   out.where = table.text("where").value_or("");
@@ -166,6 +174,7 @@ void read_ground(TomlTable& table, const std::filesystem::path& folder, GroundRe
     AreaRecipe area;
     area.area.name = item.text("name").value_or("exclusion");
     area.polygon = required_points(item, "polygon", 3);
+    read_curve(item, area.polygon, true);
     read_cover(item, area);
     item.finish();
     ground.areas.push_back(std::move(area));
@@ -175,6 +184,7 @@ void read_ground(TomlTable& table, const std::filesystem::path& folder, GroundRe
     path.area.name = item.text("name").value_or("path");
     path.area.kind = terrain::AreaKind::path;
     path.points = required_points(item, "points", 2);
+    read_curve(item, path.points, false);
     path.width_m = static_cast<float>(item.number("width_m", 0.1, 1000).value_or(2.0));
     read_cover(item, path);
     item.finish();

@@ -1,5 +1,6 @@
 #include "exchange/ground_recipe.h"
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
@@ -95,6 +96,23 @@ TEST_F(GroundRecipeTest, AreasOfEveryShapeAreKnownByNameKindAndCover) {
   EXPECT_EQ(document.terrain->area_at({30, 1})->kind, AreaKind::path);
   EXPECT_NE(warnings_.find("'spaceport' is no known kind of area; 1 shapes are taken as other"), std::string::npos)
       << warnings_;
+}
+
+TEST_F(GroundRecipeTest, ACurvePassesThroughItsPointsAndRoundsTheirCorners) {
+  const auto recipe = [](bool curve) {
+    return fmt::format(
+        "[site]\nsize_m = [40, 40]\n[[terrain.path]]\nwidth_m = 1.5\ncurve = {0}\npoints = [[4, 20], [20, 34], [36, "
+        "20]]\n[[terrain.area]]\nname = 'lawn'\ncurve = {0}\npolygon = [[12, 4], [28, 4], [28, 16], [12, 16]]\n",
+        curve);
+  };
+  const scene::Document straight = build(recipe(false)), curved = build(recipe(true));
+  for (const scene::Document* document : {&straight, &curved})
+    for (const Vec2 p : {Vec2(4.5f, 20.5f), Vec2(20, 33.7f), Vec2(35.5f, 20.5f)}) EXPECT_EQ(area(*document, p), "path");
+  EXPECT_EQ(area(straight, {12, 27}), "path");
+  EXPECT_EQ(area(curved, {12, 27}), "-");
+  EXPECT_EQ(area(curved, {10.4f, 27}), "path");
+  EXPECT_EQ(area(straight, {20, 17.5f}), "-");  // an outline bulges between its corners
+  EXPECT_EQ(area(curved, {20, 17.5f}), "lawn");
 }
 
 TEST_F(GroundRecipeTest, TreesStandBesideLawnsAndPondsNotInThem) {

@@ -3,12 +3,38 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "terrain/brush.h"
+#include "terrain/curve.h"
 
 namespace bosquet::terrain {
 namespace {
+
+TEST(Curve, PassesThroughItsPointsInSmallStepsThatNeverTurnSharply) {
+  const std::vector<Vec2> corners{{0, 4}, {10, 0}, {22, 6}, {20, 20}, {2, 18}};
+  for (const bool closed : {false, true}) {
+    const std::vector<Vec2> curve = curve_through(corners, closed);
+    for (const Vec2& corner : corners) EXPECT_NE(std::find(curve.begin(), curve.end(), corner), curve.end());
+    const std::size_t n = curve.size();
+    for (std::size_t i = 0; i + (closed ? 0 : 2) < n; ++i) {
+      const Vec2 a = curve[(i + 1) % n] - curve[i], b = curve[(i + 2) % n] - curve[(i + 1) % n];
+      EXPECT_LT(glm::length(a), 0.75f);
+      EXPECT_GT(glm::dot(glm::normalize(a), glm::normalize(b)), 0.85f) << i;  // 32 degrees
+    }
+  }
+}
+
+TEST(Curve, ALineThatEndsWhereItBeganIsRoundThereToo) {
+  const std::vector<Vec2> square{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
+  const std::vector<Vec2> curve = curve_through(square, false);
+  EXPECT_EQ(curve.front(), curve.back());
+  const Vec2 leaving = curve[1] - curve[0], arriving = curve.back() - curve[curve.size() - 2];
+  EXPECT_GT(glm::dot(glm::normalize(leaving), glm::normalize(arriving)), 0.98f);
+  EXPECT_EQ(curve_through({{0, 0}, {3, 4}}, false).size(), 2u);
+  EXPECT_EQ(curve_through({{1, 1}, {1, 1}, {1, 1}}, true).size(), 3u);
+}
 
 const Area kLawn{"great lawn", AreaKind::lawn, Cover::grass};
 const Area kPath{"lime walk", AreaKind::path, Cover::gravel};
