@@ -27,6 +27,9 @@ bool hangs(BloomForm form) {
 /// The sum of two angles.
 SinCos sum(const SinCos& a, const SinCos& b) { return {a.sin * b.cos + a.cos * b.sin, a.cos * b.cos - a.sin * b.sin}; }
 
+// Cards of hanging whips grow in length before they grow in width, until they are so many times squared as long as wide.
+constexpr float kMostSlender = 2.0f;
+
 /// Linear colour factor: `warm` above 0 turns green toward yellow and red, below 0 away from it.
 Vec3 hue_turned(float warm) {
   return warm > 0.0f ? Vec3{1.0f, 1.0f - 0.25f * warm, 1.0f - 0.5f * warm} : Vec3{1.0f + 0.3f * warm, 1.0f, 1.0f};
@@ -75,7 +78,7 @@ class FoliageMesher {
         crown_light_(in) {
     measure_cards();
     measure_thinning();
-    RandomStream of_tree = foliage_stream(in, 0xffffffff, kOfInternode);
+    RandomStream of_tree = foliage_stream(in, kWholeTree, kOfInternode);
     tree_warmth_ = look_.tree_hue * of_tree.uniform(-0.5f, 0.5f);
     tree_value_ = 1.0f - 0.16f * look_.tree_hue * of_tree.uniform();
     mottle_ = in.season == Season::autumn && !leaf_.evergreen ? 0.35f : 0.12f;
@@ -138,6 +141,7 @@ class FoliageMesher {
     }
     growth_ = of_kept > 0.0 ? static_cast<float>(std::sqrt(all / of_kept)) : 1.0f;
     crowding_ = 1.0f - 1.0f / growth_;
+    if (leaf_.cluster == ClusterForm::strings && !single_) slender_ = std::min(growth_, kMostSlender);
   }
 
   bool keeps(std::size_t k) const {
@@ -195,7 +199,8 @@ class FoliageMesher {
     if (random.uniform() < 0.5f) std::swap(card.uv.u0, card.uv.u1);
     // A card of far trees has the area of all planes of the clusters that it stands for.
     const float of_planes = level_ == FoliageLevel::cards ? std::sqrt(static_cast<float>(look_.cluster_planes)) : 1.0f;
-    card.length = twig_m_ * site.size * growth_ * of_planes, card.half_width = 0.5f * card.length;
+    const float side = twig_m_ * site.size * growth_ * of_planes;
+    card.length = side * slender_, card.half_width = 0.5f * side / slender_;
     // A card that stands for many grows around its place, not out of the crown.
     card.foot = at_ - 0.5f * crowding_ * card.length * frame_.heading;
     card.heading = frame_.heading;
@@ -311,7 +316,7 @@ class FoliageMesher {
   bool folded_leaves_ = false;  ///< leaves are just opening in their season
   int leaves_ = 0;
   std::vector<SinCos> turned_;  ///< of the leaves of a twig, one after the other
-  float growth_ = 1, crowding_ = 0;
+  float growth_ = 1, crowding_ = 0, slender_ = 1;
   float tree_warmth_ = 0, tree_value_ = 1, mottle_ = 0;
 
   // The twig that stands.

@@ -10,6 +10,7 @@
 //           branch, so old twigs that live on without growing stay green at their ends
 // Decision  a smaller number of cards keeps the area of all: each grows by the area of those left out. They are left
 //           out evenly along the branches, never at random
+// Decision  of hanging whips (strings) such a card grows longer, not wider, up to twice: weeping crowns stay strands
 // Bloom     a twig in flower or fruit (bloom.h) shows the atlas' first column: at level clusters and cards the twig with
 //           its bunches, at level leaves its bunches one by one besides the leaves
 // Colour    linear, times the atlas: occlusion by the skeleton's light relative to that of the crown's open side, a turn toward yellow with low vigor, variation

@@ -61,7 +61,31 @@ struct Placed {
   int variant = 0;
 };
 
-std::vector<Placed> place_twigs(int cell, std::uint64_t seed, int count) {
+// Strands side by side, twigs along them.
+constexpr int kStrands = 5;
+std::vector<Placed> hang_twigs(int cell, std::uint64_t seed, int count) {
+  RandomStream random(seed, mix_bits(700 + static_cast<std::uint64_t>(cell)), Purpose::texture);
+  std::vector<Placed> twigs;
+  for (int k = 0; k < count; ++k) {
+    Placed twig;
+    const int strand = k % kStrands;
+    const float side = 2.0f * (static_cast<float>(strand) + 0.5f) / static_cast<float>(kStrands) - 1.0f;
+    // The outer ones are shorter, so that the card has no corners.
+    const float reach = 0.36f - 0.1f * side * side;
+    twig.along = glm::normalize(Vec2(0.1f * random.uniform(-1.0f, 1.0f), -1.0f));
+    twig.size = kTwigScale * random.uniform(0.85f, 1.15f);
+    twig.foot = Vec2(0.5f + 0.4f * side + 0.02f * random.uniform(-1.0f, 1.0f),
+                     0.5f + reach * random.uniform(-1.0f, 1.0f) + 0.5f * twig.size);
+    const float front = static_cast<float>(k) / static_cast<float>(count - 1);
+    twig.shade = kBackShade + (1.0f - kBackShade) * front;
+    twig.variant = cell;
+    twigs.push_back(twig);
+  }
+  return twigs;
+}
+
+std::vector<Placed> place_twigs(int cell, ClusterForm form, std::uint64_t seed, int count) {
+  if (form == ClusterForm::strings) return hang_twigs(cell, seed, count);
   RandomStream random(seed, mix_bits(700 + static_cast<std::uint64_t>(cell)), Purpose::texture);
   std::vector<Placed> twigs;
   for (int k = 0; k < count; ++k) {
@@ -114,12 +138,13 @@ bool on_card(Vec2 at) {
 }
 
 // The placement whose cover, probed on a coarse grid, is nearest to the twig's.
-std::vector<Placed> as_full_as(float cover, const std::array<Twig, 2>& twigs, int cell, std::uint64_t seed) {
+std::vector<Placed> as_full_as(float cover, const std::array<Twig, 2>& twigs, int cell, ClusterForm form,
+                               std::uint64_t seed) {
   constexpr int kProbes = 48;
   std::vector<Placed> best;
   float least = 2.0f;
   for (const int count : kTwigCounts) {
-    std::vector<Placed> placed = place_twigs(cell, seed, count);
+    std::vector<Placed> placed = place_twigs(cell, form, seed, count);
     float sum = 0.0f;
     for (int y = 0; y < kProbes; ++y)
       for (int x = 0; x < kProbes; ++x) sum += paint(placed, twigs, (Vec2(x, y) + 0.5f) / float{kProbes}).alpha;
@@ -131,14 +156,14 @@ std::vector<Placed> as_full_as(float cover, const std::array<Twig, 2>& twigs, in
 
 }  // namespace
 
-LeafAtlas make_foliage_mass(const LeafAtlas& leaves, std::uint64_t seed) {
+LeafAtlas make_foliage_mass(const LeafAtlas& leaves, ClusterForm form, std::uint64_t seed) {
   const std::array<Twig, 2> twigs{Twig(leaves.base_colour, 0), Twig(leaves.base_colour, 1)};
   const int side = leaves.base_colour.width / 4;
   LeafAtlas mass;
   Image& image = mass.base_colour = Image(2 * side, 2 * side, 4);
   for (int cell = 0; cell < 2; ++cell) {
     const Texel twig = mean_of(twigs[static_cast<std::size_t>(cell)].texels);
-    const std::vector<Placed> placed = as_full_as(twig.alpha, twigs, cell, seed);
+    const std::vector<Placed> placed = as_full_as(twig.alpha, twigs, cell, form, seed);
     std::vector<Texel> texels(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     parallel_for(static_cast<std::size_t>(side), [&](std::size_t y) {
       for (std::size_t x = 0; x < static_cast<std::size_t>(side); ++x) {

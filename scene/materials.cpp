@@ -97,7 +97,7 @@ void paint_leaves(const Species& species, geometry::Season season, std::uint64_t
   geometry::describe_leaf(species.look.leaf, visit);
   auto images = painted(paintings, key.digest(), 4, [&] {
     geometry::LeafAtlas atlas = geometry::make_leaf_atlas(species.look.leaf, season, seed, kAtlasPixels);
-    geometry::LeafAtlas mass = geometry::make_foliage_mass(atlas, seed);
+    geometry::LeafAtlas mass = geometry::make_foliage_mass(atlas, species.look.leaf.cluster, seed);
     std::vector<Image> list = list_of(std::move(atlas.base_colour), std::move(atlas.normal));
     list.push_back(std::move(mass.base_colour)), list.push_back(std::move(mass.normal));
     return list;

@@ -224,7 +224,7 @@ Shown shown(const TriangleMesh& mesh, const Image& atlas) {
 TEST_P(SpeciesMesh, LeafAreaAndColourStayFromLeavesToClustersToCards) {
   const Grown tree(GetParam(), 1);
   const LeafAtlas atlas = make_leaf_atlas(tree.species.look.leaf, Season::summer, 5, 256);
-  const LeafAtlas mass = make_foliage_mass(atlas, 5);
+  const LeafAtlas mass = make_foliage_mass(atlas, tree.species.look.leaf.cluster, 5);
   // Of the first thousand twigs.
   auto twigs = leaf_sites(tree.input, FoliageLevel::clusters);
   if (twigs.size() > 1000) twigs.resize(1000);

@@ -21,13 +21,13 @@ double mean_alpha(const Image& image, int x0, int x1, int y0, int y1) {
 TEST(FoliageMass, IsTheSameForAnyNumberOfThreads) {
   const LeafAtlas atlas = oak_atlas();
   std::vector<std::uint8_t> one, eight;
-  run_with_threads(1, [&] { one = make_foliage_mass(atlas, 3).base_colour.pixels; });
-  run_with_threads(8, [&] { eight = make_foliage_mass(atlas, 3).base_colour.pixels; });
+  run_with_threads(1, [&] { one = make_foliage_mass(atlas, ClusterForm::tuft, 3).base_colour.pixels; });
+  run_with_threads(8, [&] { eight = make_foliage_mass(atlas, ClusterForm::tuft, 3).base_colour.pixels; });
   EXPECT_EQ(one, eight);
 }
 
 TEST(FoliageMass, CoversMuchOfTheCardAndLeavesItsRimClear) {
-  const Image mass = make_foliage_mass(oak_atlas(), 3).base_colour;
+  const Image mass = make_foliage_mass(oak_atlas(), ClusterForm::tuft, 3).base_colour;
   for (int cell : {0, 1}) {
     const int left = cell * kMassSide / 2;
     const double cover = mean_alpha(mass, left, left + kMassSide / 2, 0, kMassSide / 2);
@@ -47,7 +47,7 @@ TEST(FoliageMass, ShowsSmallerLeavesThanTheAtlas) {
     return static_cast<double>(n) / image.height;
   };
   const LeafAtlas atlas = oak_atlas();
-  EXPECT_GT(edges(make_foliage_mass(atlas, 3).base_colour), 1.25 * edges(atlas.base_colour));
+  EXPECT_GT(edges(make_foliage_mass(atlas, ClusterForm::tuft, 3).base_colour), 1.25 * edges(atlas.base_colour));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class Levels : public ::testing::Test {
   static void SetUpTestSuite() {
     const LeafAtlas atlas = make_leaf_atlas({}, Season::summer, 1, 256);
     skins_ = {RasterSkin(plain(4, 3, {110, 95, 80, 255})), RasterSkin(atlas.base_colour, 0.35f),
-              RasterSkin(make_foliage_mass(atlas, 1).base_colour, 0.35f)};
+              RasterSkin(make_foliage_mass(atlas, {}, 1).base_colour, 0.35f)};
   }
   static TreeInput input(const growth::Skeleton& s, std::size_t budget) {
     static const Look look;
