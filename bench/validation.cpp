@@ -205,7 +205,8 @@ scene::Document closed_stand(const YieldModel& model, double ccf) {
                 fmt::format("[site]\nsize_m = [{0}, {0}]\nseed = 9\n[asymmetry]\nasymmetry_max = 0.35\n", kSide),
                 "stand"))))
           .document;
-  document.species = {std::make_shared<const scene::Species>(value(scene::builtin_species(model.species)))};
+  auto species = std::make_shared<const scene::Species>(value(scene::builtin_species(model.species)));
+  document.species = std::vector<std::shared_ptr<const scene::Species>>(1, std::move(species));
   const double crown_area = 0.25 * std::numbers::pi * model.open_crown_m * model.open_crown_m;
   const auto spacing = static_cast<float>(std::sqrt(100.0 * crown_area / ccf));
   const int rows = static_cast<int>(kSide / spacing);

@@ -15,6 +15,7 @@
 #include "exchange/file_output.h"
 #include "exchange/tree_table.h"
 #include "growth/age.h"
+#include "scene/measured_size.h"
 #include "terrain/lattice.h"
 
 namespace bosquet::exchange {
@@ -24,8 +25,7 @@ using distribution::StandingTree;
 using Known = std::span<const std::shared_ptr<const scene::Species>>;
 
 constexpr std::uint64_t kMostSynonymBytes = 16 << 20;
-constexpr float kMostScale = 2.0f;  // beyond it set_measured_size cuts
-constexpr double kAround_m = 1.0;   // left between a surveyed crown and the site's edge, as crowns lean a little
+constexpr double kAround_m = 1.0;  // left between a surveyed crown and the site's edge, as crowns lean a little
 constexpr std::size_t kListedTwins = 20;
 
 // What a name was taken for, and how often.
@@ -80,9 +80,9 @@ std::string set_size(scene::Tree& tree, const scene::Species& species, const Inv
   std::string note;
   if (sized || height) {
     scene::set_measured_size(tree, species, height, row.trunk_diameter_m, row.crown_diameter_m);
-    if (row.height_m && *row.height_m > kMostScale * species.shape.mature_height_m)
+    if (row.height_m && *row.height_m > scene::kMostMeasuredScale * species.shape.mature_height_m)
       note = fmt::format("{:g} m is more than twice the height of {}; cut to that", *row.height_m, species.name);
-    else if (row.crown_diameter_m && *row.crown_diameter_m > kMostScale * species.shape.crown_width_m)
+    else if (row.crown_diameter_m && *row.crown_diameter_m > scene::kMostMeasuredScale * species.shape.crown_width_m)
       note = fmt::format("a crown of {:g} m is more than twice that of {}; cut to that", *row.crown_diameter_m,
                          species.name);
     tree.measured = tree.measured && row.surveyed;

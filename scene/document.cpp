@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
+#include "scene/measured_size.h"
+
 namespace bosquet::scene {
-namespace {
-
-constexpr float kLeastScale = 0.02f, kMostScale = 2.0f;
-
-}  // namespace
 
 void settle_counters(Document& document) {
   if (document.trees && !document.trees->empty())
@@ -19,7 +16,9 @@ void settle_counters(Document& document) {
 
 void set_measured_size(Tree& tree, const Species& species, std::optional<float> height_m,
                        std::optional<float> trunk_diameter_m, std::optional<float> crown_diameter_m) {
-  const auto scale = [](float size, float mature) { return std::clamp(size / mature, kLeastScale, kMostScale); };
+  const auto scale = [](float size, float mature) {
+    return std::clamp(size / mature, kLeastMeasuredScale, kMostMeasuredScale);
+  };
   if (trunk_diameter_m) {
     if (!height_m) height_m = species.allometry.height_m(*trunk_diameter_m);
     if (!crown_diameter_m) crown_diameter_m = species.allometry.crown_m(*trunk_diameter_m);

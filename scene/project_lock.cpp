@@ -11,7 +11,8 @@
 namespace bosquet::scene {
 
 std::optional<ProjectLock> ProjectLock::take(const std::filesystem::path& file, Refusal* why) {
-  const std::filesystem::path hidden = file.parent_path() / ("." + file.filename().string() + ".lock");
+  const std::filesystem::path hidden =
+      file.parent_path() / (std::string(".").append(file.filename().string()) + ".lock");
   for (;;) {
     const int descriptor = ::open(hidden.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (descriptor < 0) {

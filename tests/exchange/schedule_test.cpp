@@ -4,6 +4,8 @@
 
 #include <numbers>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "exchange/inventory.h"
 #include "scratch_folder.h"
@@ -11,10 +13,11 @@
 namespace bosquet::exchange {
 namespace {
 
-TreeRecord record(int id, const char* common, const char* botanical, DVec2 map, float height, float trunk, float crown,
-                  scene::TreeStatus status, const char* name) {
+TreeRecord record(int id, std::string common, std::string botanical, DVec2 map, float height, float trunk, float crown,
+                  scene::TreeStatus status, std::string name) {
   TreeRecord r;
-  r.id = id, r.common = common, r.botanical = botanical, r.map = map, r.status = status, r.inventory_name = name;
+  r.id = id, r.map = map, r.status = status;
+  r.common = std::move(common), r.botanical = std::move(botanical), r.inventory_name = std::move(name);
   r.grown = GrownSizes{height, trunk, crown, 41.6f};
   return r;
 }
