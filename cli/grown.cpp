@@ -87,20 +87,22 @@ std::string import_hint(const std::filesystem::path& file) {
                      shell_word(file.string()));
 }
 
-Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress) {
+Result<scene::GrownScene> grow_recipe(const Options& options, bool only_meshes, Report& report, Progress& progress) {
   auto document = load_document(options, report, progress);
   if (!document) return document.error();
   if (auto fine = check_picture_options(*document, options); !fine) return fine.error();
   for (const auto& breach : scene::clearance_breaches(*document, document->clearance))
     report.warnings.push_back(scene::words(breach, *document));
 
-  auto grown = scene::grow_scene(*document, options.grow, &progress);
+  scene::GrowOptions how = options.grow;
+  how.only_meshes = only_meshes;
+  auto grown = scene::grow_scene(*document, how, &progress);
   if (!grown) return grown.error();
   report.trees = grown->trees.size();
   report.removed = grown->given.trees->size() - grown->document.trees->size();
   report.internodes = grown->internodes();
-  report.voxels = grown->space.claimed_voxels();
-  report.skeleton_digest = grown->skeleton_digest();
+  report.voxels = grown->claimed_voxels;
+  report.skeleton_digest = grown->skeleton_digest;
   report.seconds.insert(grown->seconds.begin(), grown->seconds.end());
   report.warnings.insert(report.warnings.end(), grown->warnings.begin(), grown->warnings.end());
   return grown;

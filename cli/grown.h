@@ -14,8 +14,8 @@ Result<scene::Document> load_document(const Options& options, Report& report, Pr
 /// For messages about a file that is somebody's survey: how a recipe is made of it; empty for other files.
 std::string import_hint(const std::filesystem::path& file);
 
-/// Loads the document and grows it.
-Result<scene::GrownScene> grow_recipe(const Options& options, Report& report, Progress& progress);
+/// Loads the document and grows it; `only_meshes` as in GrowOptions.
+Result<scene::GrownScene> grow_recipe(const Options& options, bool only_meshes, Report& report, Progress& progress);
 
 inline constexpr std::size_t kShownWarnings = 12, kImportWarnings = 100;
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "cli/progress_display.h"
 #include "cli/replacing.h"
 #include "cli/version.h"
+#include "core/heap.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "core/write_protection.h"
@@ -158,23 +160,27 @@ bool some_output(const Options& options, const auto& fits) {
 // What a picture may take where no budget is asked for.
 constexpr std::size_t kPictureTriangles = 6'000'000;
 
+// Internodes of trees that are meshed, whose memory goes back to the system at once; some 4 MB.
+constexpr std::size_t kGivenBackAtOnce = 100'000;
+
 bool grows_meshes(const Options& options) {
   return some_output(options, [](const path& p) { return is_made_of_meshes(p); });
 }
 
 Result<void> make(const Options& options, Report& report, Progress& progress) {
   Stopwatch total;
-  auto grown = grow_recipe(options, report, progress);
+  const bool plain_view = options.command == Command::render && options.view != ViewKind::trees;
+  // Meshes take most of the memory: what no output asks for any more makes room.
+  const bool only_meshes = !plain_view && !some_output(options, [](const path& p) { return !is_made_of_meshes(p); });
+  auto grown = grow_recipe(options, only_meshes, report, progress);
   if (!grown) return grown.error();
 
   scene::BuiltModel built;
-  const bool plain_view = options.command == Command::render && options.view != ViewKind::trees;
   if (plain_view) {
     auto view = view_model(*grown, options);
     if (!view) return view.error();
     built.model = std::move(*view);
   } else if (grows_meshes(options)) {
-    // Meshes take most of the memory: what no output asks for any more makes room.
     if (!some_output(options, [](const path& p) { return exchange::telling_ending(p) == ".vdb"; }))
       grown->space = {}, grown->light = {};
     scene::ModelOptions model{options.season, options.foliage,
@@ -191,10 +197,19 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     model.paintings = &paintings;
     model.wind = options.wind;
     model.levels = options.lod != exchange::LodFiles::none;
-    if (!some_output(options, [](const path& p) { return !is_made_of_meshes(p); }))
-      model.meshed = [&](std::size_t tree) { grown->trees[tree].skeleton.reset(); };
+    std::atomic<std::size_t> given_up = 0;  // internodes
+    if (only_meshes)
+      model.meshed = [&](std::size_t tree) {
+        auto& skeleton = grown->trees[tree].skeleton;
+        const std::size_t internodes = skeleton->size(), before = given_up.fetch_add(internodes);
+        skeleton.reset();
+        if (before / kGivenBackAtOnce != (before + internodes) / kGivenBackAtOnce) give_back_freed_memory();
+      };
+    give_back_freed_memory();
     auto meshes = scene::build_model(*grown, model, &progress);
+
     if (!meshes) return meshes.error();
+    give_back_freed_memory();
     built = std::move(*meshes);
   }
   report.leaves = built.leaf_cards;

@@ -66,7 +66,7 @@ void print_table(const Json& json) {
 }
 
 Result<Json> measure(const Options& options, Report& report, Progress& progress) {
-  auto grown = grow_recipe(options, report, progress);
+  auto grown = grow_recipe(options, false, report, progress);
   if (!grown) return grown.error();
   const scene::Document& document = grown->document;
   const Vec2 size = document.terrain->size_m();

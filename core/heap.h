@@ -17,6 +17,13 @@ inline void keep_freed_memory() {
 #endif
 }
 
+/// Where much was given back that what comes next cannot use, in other sizes and by other threads: to the system.
+inline void give_back_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 /// Memory of the machine that the program holds now, in MB; 0 where the system does not tell.
 double resident_mb();
 

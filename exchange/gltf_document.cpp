@@ -7,6 +7,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -86,6 +87,30 @@ std::string uri(const std::string& name) {
   return out;
 }
 
+std::string dumped(const OrderedJson& json) { return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace); }
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+
+// A list of the root, kept as text in pieces: a forest's thousands of accessors, meshes and nodes would take some ten times
+// as much memory as values.
+class TextList {
+ public:
+  std::size_t size() const { return size_; }
+  void push_back(const OrderedJson& item) {
+    if (pieces_.empty() || pieces_.back().size() > kPieceBytes) pieces_.emplace_back();
+    pieces_.back() += size_++ == 0 ? '[' : ',';
+    pieces_.back() += dumped(item);
+  }
+  std::vector<std::string> take() {
+    pieces_.back() += ']';
+    return std::move(pieces_);
+  }
+
+ private:
+  std::vector<std::string> pieces_;
+  std::size_t size_ = 0;
+};
+
 // The JSON chunk, put together from what was measured and laid out.
 class Document {
  public:
@@ -97,7 +122,7 @@ class Document {
         packed_(content.packed),
         options_(options) {}
 
-  std::string json(const GltfFiles& files) {
+  std::vector<std::string> json(const GltfFiles& files) {
     image_offset_ = packed_ ? packed_->bytes : layout_.bytes;
     root_["asset"] = {{"version", "2.0"},
                       {"generator", options_.version.empty() ? "Bosquet" : "Bosquet " + options_.version}};
@@ -112,12 +137,25 @@ class Document {
     add("bufferViews", views_);
     add("accessors", accessors_);
     buffers(files);
-    return root_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+    std::vector<std::string> text;
+    for (const auto& [key, value] : root_.items()) {
+      text.push_back((text.empty() ? "{\"" : ",\"") + key + "\":");
+      if (const auto list = lists_.find(key); list == lists_.end())
+        text.push_back(dumped(value));
+      else
+        std::move(list->second.begin(), list->second.end(), std::back_inserter(text));
+    }
+    text.push_back("}");
+    return text;
   }
 
  private:
   void add(const char* name, OrderedJson& list) {
     if (!list.empty()) root_[name] = std::move(list);
+  }
+  // Its place among the others is kept.
+  void add(const char* name, TextList& list) {
+    if (list.size() > 0) root_[name] = nullptr, lists_[name] = list.take();
   }
 
   // Buffer 0 holds what is in the file; with packed views buffer 1 is what they unpack to, in a file of its own or
@@ -514,8 +552,9 @@ class Document {
   const GltfOptions& options_;
   std::uint64_t image_offset_ = 0;  ///< of the next image of a .glb in the buffer
 
-  OrderedJson root_, views_ = OrderedJson::array(), accessors_ = OrderedJson::array(), textures_ = OrderedJson::array(),
-                     samplers_ = OrderedJson::array(), meshes_ = OrderedJson::array(), nodes_ = OrderedJson::array();
+  OrderedJson root_, textures_ = OrderedJson::array(), samplers_ = OrderedJson::array();
+  TextList views_, accessors_, meshes_, nodes_;
+  std::map<std::string, std::vector<std::string>> lists_;  ///< of the root, by name
   std::vector<std::array<int, kStreams>> accessor_of_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> texture_index_;
   std::optional<std::size_t> sampler_index_[2];
@@ -546,7 +585,7 @@ std::vector<std::string> required_extensions(const std::vector<std::string>& use
   return required;
 }
 
-std::string gltf_json(const GltfContent& content, const GltfFiles& files, const GltfOptions& options) {
+std::vector<std::string> gltf_json(const GltfContent& content, const GltfFiles& files, const GltfOptions& options) {
   return Document(content, options).json(files);
 }
 

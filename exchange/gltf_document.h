@@ -35,6 +35,7 @@ struct GltfFiles {
 std::vector<std::string> used_extensions(const GltfStock& stock, const scene::Model& model, const GltfOptions& options);
 std::vector<std::string> required_extensions(const std::vector<std::string>& used, const GltfFiles& files);
 
-std::string gltf_json(const GltfContent& content, const GltfFiles& files, const GltfOptions& options);
+/// The JSON text in pieces, one after the other.
+std::vector<std::string> gltf_json(const GltfContent& content, const GltfFiles& files, const GltfOptions& options);
 
 }  // namespace bosquet::exchange

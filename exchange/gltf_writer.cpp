@@ -100,9 +100,11 @@ Result<std::uint64_t> write_glb(const std::filesystem::path& path, const GltfCon
                                 const GltfOptions& options) {
   std::uint64_t bin_bytes = content.packed ? content.packed->bytes : content.layout->bytes;
   for (const GltfImage& image : *content.images) bin_bytes += padded(image.bytes.size());
-  const std::string json = gltf_json(content, {}, options);
+  const std::vector<std::string> json = gltf_json(content, {}, options);
+  std::uint64_t json_bytes = 0;
+  for (const std::string& piece : json) json_bytes += piece.size();
 
-  const std::uint64_t total = 12 + 8 + padded(json.size()) + (bin_bytes > 0 ? 8 + bin_bytes : 0);
+  const std::uint64_t total = 12 + 8 + padded(json_bytes) + (bin_bytes > 0 ? 8 + bin_bytes : 0);
   if (total > options.max_glb_bytes)
     return Error{fmt::format(
         "{} would have {} ({} triangles), but a .glb ends at {}: set a smaller --max-triangles or --detail{}, export "
@@ -113,9 +115,9 @@ Result<std::uint64_t> write_glb(const std::filesystem::path& path, const GltfCon
   auto file = FileOutput::create(path);
   if (!file) return file.error();
   write_words(*file, kGlbMagic, kGlbVersion, total);
-  write_words(*file, padded(json.size()), kJsonChunk);
-  file->write(json);
-  pad(*file, json.size(), ' ');
+  write_words(*file, padded(json_bytes), kJsonChunk);
+  for (const std::string& piece : json) file->write(piece);
+  pad(*file, json_bytes, ' ');
   if (bin_bytes > 0) {
     write_words(*file, bin_bytes, kBinChunk);
     if (content.packed)
@@ -154,7 +156,7 @@ Result<std::uint64_t> write_separate(const std::filesystem::path& path, const Gl
     if (!stream_meshes(files.back(), content, options)) return kCancelled;
   }
   if (auto opened = open(path); !opened) return opened.error();
-  files.back().write(gltf_json(content, names, options));
+  for (const std::string& piece : gltf_json(content, names, options)) files.back().write(piece);
 
   std::uint64_t total = 0;
   for (FileOutput& file : files) {

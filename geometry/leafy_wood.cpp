@@ -5,7 +5,8 @@
 namespace bosquet::geometry {
 
 RandomStream foliage_stream(const FoliageInput& in, std::uint32_t internode, std::uint32_t place, int leaf) {
-  const std::uint64_t which = static_cast<std::uint64_t>(internode) << 32 | static_cast<std::uint64_t>(place) << 16 |
+  const std::uint32_t number = internode == kWholeTree ? kWholeTree : in.skeleton->number_of(internode);
+  const std::uint64_t which = static_cast<std::uint64_t>(number) << 32 | static_cast<std::uint64_t>(place) << 16 |
                               static_cast<std::uint64_t>(leaf + 2);
   return {in.seed, mix_bits(in.key) + which, Purpose::foliage};
 }

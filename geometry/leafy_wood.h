@@ -13,7 +13,8 @@
 
 namespace bosquet::geometry {
 
-inline constexpr std::uint32_t kOfInternode = 0xffff;  ///< as a place: the numbers of the internode itself
+inline constexpr std::uint32_t kWholeTree = 0xffffffff;  ///< as an internode: the numbers of the tree itself
+inline constexpr std::uint32_t kOfInternode = 0xffff;    ///< as a place: the numbers of the internode itself
 inline constexpr std::uint64_t kLeafDraws = 4;  ///< numbers of a leaf's or twig's stream that leaf_sites() may use
 
 /// Random numbers of a twig (leaf kWholeTwig), a leaf of it, or an internode.

@@ -64,7 +64,8 @@ TreeWind tree_wind(const growth::Skeleton& skeleton, std::span<const float> radi
     }
     // A limb is known by the internode it begins with, so that it keeps its phase when others go.
     const bool stem = limb[p] < 0;
-    const std::uint8_t phase = phase_of(key, stem ? 0 : 1 + static_cast<std::uint64_t>(limb[p]));
+    const std::uint8_t phase =
+        phase_of(key, stem ? 0 : 1 + std::uint64_t{skeleton.number_of(static_cast<std::uint32_t>(limb[p]))});
     for (const std::uint32_t i : run) {
       const std::int32_t below = skeleton.parent[i];
       const Vec3 d = skeleton.distal[i] - skeleton.proximal(i);

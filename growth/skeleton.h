@@ -17,16 +17,17 @@ inline constexpr std::uint16_t kNever = 0xffff;  ///< season of shedding of an i
 
 struct Skeleton {
   // One entry for each internode.
-  std::vector<std::int32_t> parent;  ///< internode below, -1 at the foot of a stem
-  std::vector<std::uint32_t> axis;   ///< which axis (run of one apical meristem) it belongs to
-  std::vector<std::uint8_t> order;   ///< 0 for the trunk, +1 at each branching
-  std::vector<Vec3> distal;          ///< upper end
-  std::vector<float> radius;         ///< of the finished tree, metres (radii.h solves other seasons)
-  std::vector<std::uint16_t> born;   ///< season, the first is 0
-  std::vector<std::uint16_t> shed;   ///< season in which it fell, or kNever
-  std::vector<float> light;          ///< exposure L in [0, 1] at its upper end, last season alive
-  std::vector<float> vigor;          ///< v / v_max that reached it, last season alive
-  std::vector<std::uint8_t> pipes;   ///< internodes as grown that it stands for; empty: each for itself (detail.h)
+  std::vector<std::int32_t> parent;   ///< internode below, -1 at the foot of a stem
+  std::vector<std::uint32_t> axis;    ///< which axis (run of one apical meristem) it belongs to
+  std::vector<std::uint8_t> order;    ///< 0 for the trunk, +1 at each branching
+  std::vector<Vec3> distal;           ///< upper end
+  std::vector<float> radius;          ///< of the finished tree, metres (radii.h solves other seasons)
+  std::vector<std::uint16_t> born;    ///< season, the first is 0
+  std::vector<std::uint16_t> shed;    ///< season in which it fell, or kNever
+  std::vector<float> light;           ///< exposure L in [0, 1] at its upper end, last season alive
+  std::vector<float> vigor;           ///< v / v_max that reached it, last season alive
+  std::vector<std::uint8_t> pipes;    ///< internodes as grown that it stands for; empty: each for itself (detail.h)
+  std::vector<std::uint32_t> number;  ///< its place when fallen wood was there too (fallen.h); empty: that here
 
   int seasons = 0;                ///< seasons grown
   float internode_length_m = 0;   ///< l of this tree, over detail
@@ -37,6 +38,8 @@ struct Skeleton {
   std::size_t size() const { return parent.size(); }
   /// Pipes that internode i adds to those of its children (radii.h).
   int own_pipes(std::size_t i) const { return pipes.empty() ? 1 : pipes[i]; }
+  /// What is drawn at random for internode i is drawn by this.
+  std::uint32_t number_of(std::uint32_t i) const { return number.empty() ? i : number[i]; }
   bool alive(std::size_t i) const { return shed[i] == kNever; }
   /// Standing at the end of `season`.
   bool alive_at(std::size_t i, int season) const { return born[i] <= season && shed[i] > season; }

@@ -5,10 +5,24 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "growth/age.h"
 #include "growth/digest.h"
+#include "growth/fallen.h"
 #include "growth/grow.h"
 
 namespace bosquet::scene {
+
+namespace {
+
+// The tree as it is shown, and no earlier one.
+void keep_standing_wood(GrownTree& tree) {
+  const growth::Skeleton& whole = *tree.skeleton;
+  tree.skeleton = std::make_shared<const growth::Skeleton>(
+      growth::without_fallen(tree.season < 0 ? whole : growth::tree_at_season(whole, tree.season)));
+  tree.season = -1;
+}
+
+}  // namespace
 
 Document without_removed(const Document& document) {
   const auto removed = [](const Tree& tree) { return tree.status == TreeStatus::to_remove; };
@@ -27,12 +41,6 @@ std::size_t GrownScene::internodes() const {
   return sum;
 }
 
-std::uint64_t GrownScene::skeleton_digest() const {
-  Hasher hasher;
-  for (const GrownTree& tree : trees) hasher.add(growth::digest(*tree.skeleton));
-  return hasher.digest();
-}
-
 Result<GrownScene> grow_scene(const Document& given, const GrowOptions& options, Progress* progress) {
   GrownScene scene;
   scene.given = given;
@@ -46,20 +54,38 @@ Result<GrownScene> grow_scene(const Document& given, const GrowOptions& options,
   if (!around) return around.error();
 
   Stopwatch watch;
+  scene.claimed_voxels = around->space.claimed_voxels();
+  std::vector<std::optional<TreeInputs>> inputs(trees.size());
+  const auto gather = [&](std::size_t i) { inputs[i].emplace(document, trees[i], around->of(i), options.detail); };
+  if (options.only_meshes) {
+    // Trees need far less of the crown space than it takes, a bit for a voxel.
+    parallel_for(trees.size(), gather);
+    *around = {};
+  }
   std::vector<float> costs;
   for (const Tree& tree : trees) costs.push_back(growth_cost(document, tree));
   scene.trees.resize(trees.size());
   std::vector<std::string> warnings(trees.size());
+  std::vector<std::uint64_t> digests(trees.size());
   if (progress) progress->begin("trees", trees.size());
   parallel_dearest_first(costs, [&](std::size_t i) {
     if (progress && progress->cancelled()) return;
-    const TreeInputs inputs(document, trees[i], around->of(i), options.detail);
-    scene.trees[i] = grow_tree(document, trees[i], inputs, options.skeletons ? inputs.hash() : 0, options.year,
-                               options.skeletons, progress, warnings[i]);
+    if (!inputs[i]) gather(i);
+    GrownTree& tree = scene.trees[i] =
+        grow_tree(document, trees[i], *inputs[i], options.skeletons ? inputs[i]->hash() : 0, options.year,
+                  options.skeletons, progress, warnings[i]);
+    inputs[i].reset();
+    if (!tree.skeleton) return;
+    digests[i] = growth::digest(*tree.skeleton);
+    // One that a cache keeps takes no more room whole.
+    if (options.only_meshes && !options.skeletons) keep_standing_wood(tree);
     if (progress) progress->advance();
   });
   growth::release_work_memory();  // meshes are next
   if (progress && progress->cancelled()) return cannot_finish("cancelled; nothing was written");
+  Hasher hasher;
+  for (const std::uint64_t digest : digests) hasher.add(digest);
+  scene.skeleton_digest = hasher.digest();
   for (std::string& warning : warnings)
     if (!warning.empty()) scene.warnings.push_back(std::move(warning));
   scene.seconds["growth"] = watch.restart();

@@ -31,19 +31,22 @@ struct GrowOptions {
   float detail = 1.0f;                 ///< internodes are this many times shorter
   std::optional<float> year;           ///< show every tree at this age; missing: at its final height
   SkeletonCache* skeletons = nullptr;  ///< trees grown before; null: every tree is grown
+  /// The scene is for build_model alone: crown space, light and fallen wood are let go as soon as they can be.
+  bool only_meshes = false;
 };
 
 struct GrownScene {
   Document given;     ///< as it came
   Document document;  ///< the same without the trees to be removed: they take no room in the scene and are not grown
-  crowns::CrownSpace space;
-  crowns::CanopyLight light;     ///< empty when canopy light is off
-  std::vector<GrownTree> trees;  ///< in the document's order
-  Seconds seconds;               ///< "crowns", "light", "growth"
+  crowns::CrownSpace space;           ///< empty when only meshes are wanted
+  crowns::CanopyLight light;          ///< the same, and when canopy light is off
+  std::vector<GrownTree> trees;       ///< in the document's order
+  std::size_t claimed_voxels = 0;     ///< of the crown space
+  std::uint64_t skeleton_digest = 0;  ///< over all skeletons as they grew, in the document's order
+  Seconds seconds;                    ///< "crowns", "light", "growth"
   std::vector<std::string> warnings;
 
-  std::size_t internodes() const;         ///< living
-  std::uint64_t skeleton_digest() const;  ///< over all skeletons, in the document's order
+  std::size_t internodes() const;  ///< living
 };
 
 /// The document without its trees to be removed.

@@ -291,10 +291,11 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   parallel_for(trees.size(), [&](std::size_t i) {
     const Drawn& tree = trees[i];
     const Species& species = *document.species[tree.species];
-    radii[i] = tree.season < 0 ? tree.skeleton->radius : growth::radii(*tree.skeleton, tree.season);
+    if (tree.season >= 0) radii[i] = growth::radii(*tree.skeleton, tree.season);
+    const std::span<const float> radius = tree.season < 0 ? tree.skeleton->radius : radii[i];
     TreeOrder& order = orders[i];
     order.input = {tree.skeleton,
-                   radii[i],
+                   radius,
                    &species.look,
                    &species.foliage,
                    {tree.season, options.season,
@@ -303,7 +304,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     order.species = tree.species;
     order.size = Vec2(tree.crown_m, tree.height_m);
     order.need = need[i] =
-        geometry::estimate_triangles(*tree.skeleton, radii[i], species.look, species.foliage, order.input.options) * 3 /
+        geometry::estimate_triangles(*tree.skeleton, radius, species.look, species.foliage, order.input.options) * 3 /
         2;
     const float apparent = apparent_size(cameras, tree.base, tree.height_m);
     weight[i] = apparent * apparent * apparent;

@@ -107,7 +107,7 @@ class Pipeline {
 
   /// What the trees of the last finished snapshot are to each other: for views of regions and arrows. Null before.
   std::shared_ptr<const Surroundings> surroundings() const;
-  /// Of all skeletons of the last finished snapshot, as GrownScene::skeleton_digest().
+  /// Of all skeletons of the last finished snapshot, as GrownScene::skeleton_digest.
   std::uint64_t skeleton_digest() const;
 
  private:

@@ -183,7 +183,7 @@ TEST(TreeStatus, ATreeToBeRemovedIsNotGrownAndTakesNoRoom) {
   two.trees = std::make_shared<const Trees>(rest);
   const GrownScene a = grow_clipped(three), b = grow_clipped(two);
   EXPECT_EQ(a.trees.size(), 2u);
-  EXPECT_EQ(a.skeleton_digest(), b.skeleton_digest());
+  EXPECT_EQ(a.skeleton_digest, b.skeleton_digest);
   EXPECT_EQ(a.given.trees->size(), 3u);
   EXPECT_EQ(a.document.trees->size(), 2u);
 }

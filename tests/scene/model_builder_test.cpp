@@ -68,6 +68,41 @@ TEST(ModelBuilder, SkeletonsMayBeGivenUpAsTheirTreesAreMeshed) {
   }
 }
 
+TEST(ModelBuilder, ASceneGrownForMeshesAloneHasTheSameMeshesAndNoFallenWood) {
+  const Document document = sample_document("silver_birch", {{4, 4}, {8, 5}, {6, 9}}, {12, 12}, 0.5f);
+  for (const std::optional<float> year : {std::optional<float>(), std::optional<float>(15.0f)}) {
+    const auto whole = grow_scene(document, {.year = year}, nullptr);
+    const auto lean = grow_scene(document, {.year = year, .only_meshes = true}, nullptr);
+    ASSERT_TRUE(whole && lean);
+    EXPECT_EQ(lean->skeleton_digest, whole->skeleton_digest);
+    EXPECT_EQ(lean->claimed_voxels, whole->claimed_voxels);
+    EXPECT_EQ(lean->space.claimed_voxels(), 0u);
+    EXPECT_EQ(lean->internodes(), whole->internodes());
+    std::size_t kept = 0, all = 0;
+    for (std::size_t i = 0; i < lean->trees.size(); ++i)
+      kept += lean->trees[i].skeleton->size(), all += whole->trees[i].skeleton->size();
+    EXPECT_EQ(kept, lean->internodes());
+    EXPECT_LT(kept, all);
+    for (const geometry::FoliageLevel foliage : {geometry::FoliageLevel::leaves, geometry::FoliageLevel::clusters}) {
+      const ModelOptions options{.foliage = foliage, .max_triangles = 30'000, .levels = true, .wind = true};
+      const auto a = build_model(*lean, options, nullptr), b = build_model(*whole, options, nullptr);
+      ASSERT_TRUE(a && b);
+      ASSERT_EQ(a->model.nodes.size(), b->model.nodes.size());
+      for (std::size_t n = 0; n < b->model.nodes.size(); ++n) {
+        const std::vector<Part>&parts = a->model.nodes[n].parts, &others = b->model.nodes[n].parts;
+        ASSERT_EQ(parts.size(), others.size());
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+          const TriangleMesh &one = *parts[p].mesh, &other = *others[p].mesh;
+          EXPECT_EQ(one.positions, other.positions);
+          EXPECT_EQ(one.colours, other.colours);
+          EXPECT_EQ(one.uvs, other.uvs);
+          EXPECT_EQ(one.wind, other.wind);
+        }
+      }
+    }
+  }
+}
+
 TEST(ModelBuilder, TheTriangleBudgetIsKept) {
   const GrownScene scene = small_scene();
   for (std::size_t budget : {3'000u, 20'000u, 60'000u}) {

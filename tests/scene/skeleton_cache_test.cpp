@@ -136,11 +136,11 @@ TEST(SkeletonCache, AnotherYearGrowsNothingAndAnotherDetailGrowsAll) {
 TEST(SkeletonCache, ASceneIsTheSameWithAndWithoutIt) {
   const Document document =
       edited(sample_document("english_oak", kApart, {60, 40}), 1, [](Tree& t) { t.trunk_diameter_m = 0.15f; });
-  const std::uint64_t plain = grow(document, nullptr).skeleton_digest();
+  const std::uint64_t plain = grow(document, nullptr).skeleton_digest;
   SkeletonCache cache;
-  for (int round = 0; round < 2; ++round) EXPECT_EQ(grow(document, &cache).skeleton_digest(), plain);
+  for (int round = 0; round < 2; ++round) EXPECT_EQ(grow(document, &cache).skeleton_digest, plain);
   SkeletonCache small(20'000);  // hardly a tree fits
-  for (int round = 0; round < 2; ++round) EXPECT_EQ(grow(document, &small).skeleton_digest(), plain);
+  for (int round = 0; round < 2; ++round) EXPECT_EQ(grow(document, &small).skeleton_digest, plain);
 }
 
 TEST(SkeletonCache, AnImpossibleTrunkIsToldEveryTime) {

@@ -110,7 +110,7 @@ TEST(StandLight, TreesAroundAGapFillItAndKeepLowBranchesTowardsIt) {
 
 TEST(StandLight, ALoneTreeIsTheSameWithAndWithout) {
   const Document alone = sample_document("english_oak", {{10, 10}}, {20, 20}, 0.4f);
-  EXPECT_EQ(grow(alone, true).skeleton_digest(), grow(alone, false).skeleton_digest());
+  EXPECT_EQ(grow(alone, true).skeleton_digest, grow(alone, false).skeleton_digest);
 }
 
 TEST(StandLight, WithoutRegionsThereIsNone) {
