@@ -4,14 +4,14 @@
 // Decision  in a region narrower than the cone hardly any marker may stand, so the tip of a trunk also drops one
 //           straight ahead, or above where its region does not go on ahead: between neighbours a tree grows up, not
 //           nowhere
-// Decision  a bud drops 1 + floor(marker_rate * v / v_max) markers, v of the last season; before later metamers only
-//           the buds still growing drop and claim
+// Decision  before later metamers only the buds still growing drop and claim
 // Decision  a bud competes when one of its own markers may stand: who saw no room takes none from those who did
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "growth/directions.h"
+#include "growth/dropping.h"
 #include "growth/lanes.h"
 #include "growth/light.h"
 #include "growth/region_test.h"
@@ -23,95 +23,34 @@ namespace {
 // Where a trunk's tip looks on its own axis, in occupancy radii.
 constexpr float kAhead = 1.25f;
 
-constexpr std::size_t kAtOnce = 64;  ///< buds whose markers stay in the first-level cache until they are looked up
-
-/// Makes the markers of one bud after another; what they are made of stands beside each other. Begins a round.
-class Dropping {
- public:
-  explicit Dropping(Tree& tree)
-      : buds_(tree.buds.each.data()),
-        samples_(tree.samples.reader()),
-        cell_of_(tree.occupancy.cell_finder()),
-        random_(tree.random),
-        occupied_m_(tree.occupied_m),
-        rate_(tree.parameters->marker_rate),
-        greatest_(tree.greatest_vigor),
-        planar_(tree.parameters->planar) {
-    DroppedMarkers& d = tree.dropped;
-    d.make_room(kAtOnce * (1 + static_cast<std::size_t>(rate_)) + PerceptionSamples::kMost);
-    d.standing.keep(0), tree.competing.keep(0);
-    x_ = d.x.data(), y_ = d.y.data(), z_ = d.z.data(), cell_ = d.cell.data(), bud_ = d.bud.data();
-  }
-
-  void drop(std::int32_t bud) {
-    Bud& b = buds_[bud];
-    b.claims = 0;
-    const int markers = 1 + static_cast<int>(rate_ * share_of(b.flow, greatest_));
-    const Vec3 at = b.at, along = b.direction;
-    const Basis basis =
-        planar_ ? Basis{normalised_or({along.y, -along.x, 0.0f}, {1.0f, 0.0f, 0.0f}), Vec3{0.0f, 0.0f, 1.0f}}
-                : basis_around(along);
-    const Vec3 to_x = occupied_m_ * basis.x, to_y = occupied_m_ * basis.y, to_z = occupied_m_ * along;
-    const auto first = static_cast<std::uint32_t>(random_.bits()) % PerceptionSamples::kCount;
-    for (int m = 0; m < markers; m += 4) {
-      // Four at once; what is too many of them the next ones overwrite.
-      const auto n = first + static_cast<std::uint32_t>(m);
-      const Float4 sx = samples_.x(n), sy = samples_.y(n), sz = samples_.z(n);
-      const Float4 x = all4(at.x) + (sx * all4(to_x.x) + sy * all4(to_y.x) + sz * all4(to_z.x));
-      const Float4 y = all4(at.y) + (sx * all4(to_x.y) + sy * all4(to_y.y) + sz * all4(to_z.y));
-      const Float4 z = all4(at.z) + (sx * all4(to_x.z) + sy * all4(to_y.z) + sz * all4(to_z.z));
-      store4(x_ + count_, x), store4(y_ + count_, y), store4(z_ + count_, z);
-      store4(cell_ + count_, cell_of_(x, y, z));
-      store4(bud_ + count_, Int4{bud, bud, bud, bud});
-      count_ += static_cast<std::size_t>(std::min(4, markers - m));
-    }
-  }
-  void forget() { count_ = 0; }
-  std::size_t count() const { return count_; }
-  const RandomStream& random() const { return random_; }
-
- private:
-  Bud* buds_;
-  PerceptionSamples::Reader samples_;
-  Occupancy::CellFinder cell_of_;
-  RandomStream random_;
-  float occupied_m_, rate_, greatest_;
-  bool planar_;
-  float *x_, *y_, *z_;
-  std::int32_t *cell_, *bud_;
-  std::size_t count_ = 0;
-};
-
 /// Where the tip of a trunk has room on its own axis, or above, when its region refuses most of its markers.
-void look_ahead(Tree& tree, const RegionTest& in_its_region, std::int32_t bud, std::size_t first, std::size_t end) {
+void look_ahead(Tree& tree, const RegionTest& in_its_region, const DroppedMarkers::OfBud& dropped) {
   std::size_t refused = 0;
   const DroppedMarkers& d = tree.dropped;
-  for (std::size_t i = first; i < end; ++i) {
+  for (std::size_t i = dropped.first; i < dropped.end; ++i) {
     refused += d.y[i] > 0.0f && !in_its_region(Float4{d.x[i], d.y[i], d.z[i], 0.0f});
   }
-  if (2 * refused <= end - first) return;
-  const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
+  if (2 * refused <= dropped.end - dropped.first) return;
+  const Bud& b = tree.buds[static_cast<std::size_t>(dropped.bud)];
   for (const Vec3& ahead : {b.direction, kUp}) {
     const Vec3 marker = b.at + kAhead * tree.occupied_m * ahead;
     ++tree.work.markers_tested;
     if (marker.y <= 0.0f || !in_its_region(lanes(marker)) || tree.occupancy.occupied(marker)) continue;
-    claim(tree, bud, ahead);
+    claim(tree, dropped.bud, ahead);
     break;
   }
 }
 
-/// Drops the markers of some buds and lists those that may stand.
+/// Forgets the markers and competitors of the last round.
+void begin_round(Tree& tree) { tree.dropped.standing.keep(0), tree.competing.keep(0); }
+
+/// Lists the markers of some buds that may stand, and the buds that compete for them.
 void drop(Tree& tree, const RegionTest& in_its_region, Dropping& dropping, std::span<const std::int32_t> buds) {
-  dropping.forget();
-  for (const std::int32_t bud : buds) {
-    const std::size_t first = dropping.count();
-    dropping.drop(bud);
-    const Bud& b = tree.buds[static_cast<std::size_t>(bud)];
-    if (b.order == 0 && b.state == BudState::terminal) look_ahead(tree, in_its_region, bud, first, dropping.count());
-  }
+  dropping.drop(buds);
+  DroppedMarkers& d = tree.dropped;
+  for (const DroppedMarkers::OfBud& dropped : d.of_trunks) look_ahead(tree, in_its_region, dropped);
 
   // No step waits for another: lists are written ahead and grow by 0 or 1, for which it is could not be guessed.
-  DroppedMarkers& d = tree.dropped;
   const std::size_t count = dropping.count();
   tree.work.markers_tested += count;
   std::size_t free = 0;
@@ -168,9 +107,10 @@ void sense(Tree& tree) {
   const bool painted = !tree.input->markers.empty();
   const RegionTest in_its_region(tree);
   Dropping dropping(tree);
+  begin_round(tree);
   std::size_t living = 0;
-  for (std::size_t n = 0; n < tree.living.size(); n += kAtOnce) {
-    const std::size_t end = weed_out(tree, n, std::min(n + kAtOnce, tree.living.size()), living);
+  for (std::size_t n = 0; n < tree.living.size(); n += Dropping::kAtOnce) {
+    const std::size_t end = weed_out(tree, n, std::min(n + Dropping::kAtOnce, tree.living.size()), living);
     const std::span<const std::int32_t> buds{tree.living.data() + living, end - living};
     sense_light(tree, buds);
     if (!painted) drop(tree, in_its_region, dropping, buds);
@@ -179,7 +119,6 @@ void sense(Tree& tree) {
   tree.living.resize(living);
   tree.work.bud_visits += living;
   if (painted) return claim_painted(tree, tree.living);
-  tree.random = dropping.random();
   claim_standing(tree);
 }
 
@@ -189,11 +128,11 @@ void compete_again(Tree& tree) {
   if (!tree.input->markers.empty()) return claim_painted(tree, tree.extending);
   const RegionTest in_its_region(tree);
   Dropping dropping(tree);
+  begin_round(tree);
   const std::span<const std::int32_t> buds(tree.extending);
-  for (std::size_t n = 0; n < buds.size(); n += kAtOnce) {
-    drop(tree, in_its_region, dropping, buds.subspan(n, std::min(kAtOnce, buds.size() - n)));
+  for (std::size_t n = 0; n < buds.size(); n += Dropping::kAtOnce) {
+    drop(tree, in_its_region, dropping, buds.subspan(n, std::min(Dropping::kAtOnce, buds.size() - n)));
   }
-  tree.random = dropping.random();
   claim_standing(tree);
 }
 

@@ -132,7 +132,12 @@ struct DroppedMarkers {
   std::vector<std::int32_t> cell;  ///< of the occupancy
   std::vector<std::int32_t> bud;   ///< that dropped it
   std::vector<std::int32_t> free;  ///< markers whose cells are
-  WrittenAhead<Marker> standing;   ///< of all buds of this round
+  struct OfBud {
+    std::int32_t bud;
+    std::size_t first, end;
+  };
+  std::vector<OfBud> of_trunks;   ///< those that tips of trunks dropped
+  WrittenAhead<Marker> standing;  ///< of all buds of this round
   void make_room(std::size_t count) {
     if (count <= x.size()) return;
     x.resize(count), y.resize(count), z.resize(count), cell.resize(count), bud.resize(count), free.resize(count);
