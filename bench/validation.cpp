@@ -297,7 +297,8 @@ std::string thresholds() {
     for (const float threshold : tried) {
       scene::Species species = own;
       species.growth.shedding_threshold = threshold;
-      stand.species = {std::make_shared<const scene::Species>(species)};
+      stand.species =
+          std::vector<std::shared_ptr<const scene::Species>>(1, std::make_shared<const scene::Species>(species));
       const StandMeasures m = measure_stand(stand, true);
 
       // Five trees of full size in the open, one after the other.
