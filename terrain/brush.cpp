@@ -73,10 +73,16 @@ bool shapes_ground(BrushKind kind) {
 }  // namespace
 
 LiveStroke::LiveStroke(const Terrain& before, Stroke stroke)
-    : before_(before), after_(before), stroke_(std::move(stroke)), distance_(empty_distance()) {
+    : before_(before), stroke_(std::move(stroke)), distance_(empty_distance()) {
   const std::vector<Vec2> points = std::exchange(stroke_.points, {});
-  if (stroke_.kind == BrushKind::exclude) area_ = after_.areas.add(after_.exclusion.lattice(), stroke_.area);
+  begin();
   extend(points);
+}
+
+void LiveStroke::begin() {
+  after_ = before_;
+  if (stroke_.kind == BrushKind::exclude) area_ = after_.areas.add(after_.exclusion.lattice(), stroke_.area);
+  distance_.clear();
 }
 
 LineDistance LiveStroke::empty_distance() const {
@@ -91,8 +97,8 @@ Box2 LiveStroke::extend(std::span<const Vec2> points) {
   if (stroke_.points.empty() && points.size() == 1) {
     fresh.push_back({points[0], points[0]});
   } else {
-    // A click that becomes a line is no piece of that line.
-    if (stroke_.points.size() == 1) distance_.clear();
+    // A click that becomes a line is no piece of that line: at its rim it may reach a point that the line just misses.
+    if (stroke_.points.size() == 1) begin();
     Vec2 from = stroke_.points.empty() ? points[0] : stroke_.points.back();
     for (std::size_t n = stroke_.points.empty() ? 1 : 0; n < points.size(); from = points[n++])
       fresh.push_back({from, points[n]});
@@ -123,8 +129,12 @@ void LiveStroke::shape(std::span<const Piece> fresh) {
   TileEditor<float> editor(after_.height.grid());
   distance_.extend(fresh, [&](int i, int j, float distance) {
     const float f = stroke_.strength * weight(stroke_, distance);
-    if (!(f > 0.0f)) return;
     const float h = before.sample(i, j);
+    if (!(f > 0.0f)) {
+      // At the rim a nearer piece may weigh a rounding less than the one before it, which then left its mark.
+      if (after_.height.sample(i, j) != h) editor.set(i, j, h);
+      return;
+    }
     float after = h;
     switch (stroke_.kind) {
       case BrushKind::raise:

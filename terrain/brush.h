@@ -86,6 +86,7 @@ class LiveStroke {
 
  private:
   LineDistance empty_distance() const;
+  void begin();
   void shape(std::span<const Piece> fresh);
   void bar(std::span<const Piece> fresh);
   void set_density(std::span<const Piece> fresh);

@@ -63,6 +63,21 @@ RC_GTEST_PROP(LiveStroke, IsTheWholeStrokeToTheBitHoweverItsPointsCame, ()) {
   RC_ASSERT(live.stroke().points == stroke.points);
 }
 
+// The last piece comes nearer to two samples at the rim, where it weighs a rounding less than the one before it.
+TEST(LiveStroke, APieceThatOnlyBrushesTheRimLeavesTheSamplesOfTheWholeStroke) {
+  const Terrain before = rough({48, 40});
+  Stroke stroke;
+  stroke.kind = BrushKind::raise;
+  stroke.radius_m = 7.3f, stroke.strength = 0.7f, stroke.hardness = 0.0f;
+  stroke.points = {0.1f * Vec2{-60, 160}};
+  LiveStroke live(before, stroke);
+  for (const Vec2 point : {0.1f * Vec2{261, 70}, 0.1f * Vec2{-60, -60}}) {
+    live.extend({&point, 1});
+    stroke.points.push_back(point);
+    EXPECT_TRUE(same_bits(live.terrain(), apply(before, stroke)));
+  }
+}
+
 // Whoever redraws or replants only the rectangle misses nothing.
 RC_GTEST_PROP(Edit, BeyondTheTouchedRectangleEveryAnswerIsAsBefore, ()) {
   const Terrain before = rough({40, 40});
