@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 
 #include "cli/command_words.h"
@@ -32,12 +34,12 @@ CLI::Validator within(double low, double high) {
 }
 
 // A whole number from 0 on; CLI11 lets negative and overlong ones wrap round.
-CLI::Validator whole(std::uint64_t most = 999'999'999'999'999'999) {
+CLI::Validator whole(std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) {
   return CLI::Validator(
       [most](std::string& text) {
-        const bool digits =
-            !text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits && std::stoull(text) <= most
+        std::uint64_t value = 0;
+        const auto [end, mistake] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return !text.empty() && mistake == std::errc() && end == text.data() + text.size() && value <= most
                    ? std::string()
                    : "'" + text + "' must be a whole number from 0 to " + std::to_string(most);
       },
@@ -92,8 +94,10 @@ void add_detail(CLI::App* app, Options& o) {
 }
 
 void add_season(CLI::App* app, Options& o) {
-  app->add_option("--season", o.season, "spring, summer, autumn or bare")
-      ->transform(one_of(by_name<geometry::Season>(geometry::kSeasonNames)))
+  auto seasons = by_name<geometry::Season>(geometry::kSeasonNames);
+  seasons.emplace("winter", geometry::Season::bare);
+  app->add_option("--season", o.season, "spring, summer, autumn or bare (winter is the same)")
+      ->transform(one_of(seasons))
       ->option_text("NAME");
 }
 
@@ -206,7 +210,7 @@ ParsedLine parse_command_line(int argc, char** argv) {
       ->allow_extra_args(false)
       ->option_text("OUT");
   make->add_option("--tree", o.tree, "The tree, by its id, that goes into an output NAME.tree.json")
-      ->check(whole())
+      ->check(whole(2'147'483'647))
       ->option_text("ID");
   add_replace(make, o);
   add_scene(make, o), add_gltf(make, o), add_picture(make, o), add_common(make, o);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "cli/commands.h"
@@ -248,7 +249,8 @@ path of_year(const path& target, float year) {
   return target.parent_path() / fmt::format("{}-{:g}{}", name.substr(0, end), year, name.substr(end));
 }
 
-Result<void> make_and_report(const Options& options) {
+// What was made, in words for the person.
+Result<std::string> make_and_report(const Options& options) {
   Report report;
   report.program_mb = peak_rss_mb();
   Progress progress;
@@ -258,24 +260,31 @@ Result<void> make_and_report(const Options& options) {
     run_with_threads(options.threads, [&] { done = make(options, report, progress); });
   }
   print_warnings(report.warnings, options.quiet);
-  if (!done) return done;
+  if (!done) return done.error();
   if (!options.report.empty())
-    if (auto written = write_report(options.report, report); !written) return written;
-  if (!options.quiet) {
-    std::string line = fmt::format("{}, {} internodes", count_of(report.trees, "tree"), report.internodes);
-    if (report.triangles > 0) line += fmt::format(", {} triangles", report.triangles);
-    fmt::print("{} in {:.1f} s\n", line, report.seconds["total"]);
-    if (report.removed > 0)
-      fmt::print("{} more to be removed, so not grown; schedules and plans list {}\n", count_of(report.removed, "tree"),
-                 report.removed == 1 ? "it" : "them");
-    for (const auto& [output, bytes] : report.bytes) {
-      const auto required = report.required_extensions.find(output);
-      fmt::print("{}  {}{}\n", output, readable_bytes(bytes),
-                 required == report.required_extensions.end()
-                     ? ""
-                     : fmt::format("; opens only in programs that know {}", fmt::join(required->second, ", ")));
-    }
+    if (auto written = write_report(options.report, report); !written) return written.error();
+  std::string words;
+  if (options.quiet) return words;
+  words = fmt::format("{}, {} internodes", count_of(report.trees, "tree"), report.internodes);
+  if (report.triangles > 0) words += fmt::format(", {} triangles", report.triangles);
+  words += fmt::format(" in {:.1f} s\n", report.seconds["total"]);
+  if (report.removed > 0)
+    words += fmt::format("{} more to be removed, so not grown; schedules and plans list {}\n",
+                         count_of(report.removed, "tree"), report.removed == 1 ? "it" : "them");
+  for (const auto& [output, bytes] : report.bytes) {
+    const auto required = report.required_extensions.find(output);
+    words += fmt::format("{}  {}{}\n", output, readable_bytes(bytes),
+                         required == report.required_extensions.end()
+                             ? ""
+                             : fmt::format("; opens only in programs that know {}", fmt::join(required->second, ", ")));
   }
+  return words;
+}
+
+Result<void> make_and_print(const Options& options) {
+  auto words = make_and_report(options);
+  if (!words) return words.error();
+  fmt::print("{}", *words);
   return {};
 }
 
@@ -284,7 +293,7 @@ Result<void> make_and_report(const Options& options) {
 Result<void> run_make(const Options& options) {
   if (options.years.size() < 2) {
     if (auto fine = check_targets(options); !fine) return fine;
-    return make_and_report(options);
+    return make_and_print(options);
   }
   scene::SkeletonCache skeletons;  // years only change how much of a tree is shown
   // The oldest first: its trees are the largest, and what shows them shows all.
@@ -301,14 +310,25 @@ Result<void> run_make(const Options& options) {
     if (!at.report.empty()) at.report = of_year(at.report, year);
     if (auto fine = check_targets(at); !fine) return fine;
   }
-  for (const Options& at : all)
-    if (auto done = make_and_report(at); !done) return done;
-  return {};
+  std::map<float, std::string> made;
+  Result<void> done;
+  for (const Options& at : all) {
+    auto words = make_and_report(at);
+    if (!words) {
+      done = words.error();
+      break;
+    }
+    made[*at.grow.year] = std::move(*words);
+  }
+  // Told in the order that was asked for.
+  for (const float year : options.years)
+    if (const auto words = made.find(year); words != made.end()) fmt::print("{}", words->second);
+  return done;
 }
 
 Result<void> run_render(const Options& options) {
   if (auto fine = check_targets(options); !fine) return fine;
-  return make_and_report(options);
+  return make_and_print(options);
 }
 
 }  // namespace bosquet::cli

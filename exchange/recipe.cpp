@@ -444,7 +444,7 @@ class Reader {
   void read_sun(TomlTable& table) {
     scene::Sun& sun = recipe_.document.sun;
     sun.azimuth_deg = static_cast<float>(table.number("azimuth_deg", -360, 360).value_or(sun.azimuth_deg));
-    sun.elevation_deg = static_cast<float>(table.number("elevation_deg", 0.5, 90).value_or(sun.elevation_deg));
+    sun.elevation_deg = static_cast<float>(table.number("elevation_deg", 0, 90).value_or(sun.elevation_deg));
     table.finish();
   }
 

@@ -446,6 +446,10 @@ Result<BuiltRecipe> build_document(const Recipe& written, Progress* progress) {
     if (auto laid = lay_by_world_file(document.underlay, wanted, document.place, size, built.warnings); !laid)
       return Error{fmt::format("{}: [underlay] {}", recipe.file.string(), laid.error().message)};
   }
+  // Only plan sheets need it, and those refuse to be drawn without.
+  if (std::error_code ec; !document.underlay.file.empty() && !std::filesystem::exists(document.underlay.file, ec))
+    built.warnings.push_back(fmt::format("{}: [underlay] there is no file {}; no plan sheet can be drawn without it",
+                                         recipe.file.string(), document.underlay.file));
   const Vec2 size = document.terrain->size_m();
   for (const scene::Figure& figure : recipe.figures)
     if (!terrain::on_site(*document.terrain, figure.at))

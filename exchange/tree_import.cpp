@@ -293,11 +293,29 @@ Result<ImportedDocument> import_trees(const scene::Document& before, const std::
   if (inventory->trees.empty()) {
     const auto lines = problem_lines(inventory->problems, file.string(), inventory->features, 1);
     if (lines.empty()) return Error{fmt::format("{} has no tree", file.string())};
-    // Where only the site is wrong, what is left is to lay one out round the trees.
-    const bool elsewhere = lines.front().find("lies outside the site") != std::string::npos;
-    return Error{
-        fmt::format("{}: no row has a usable position on the site: {}{}", file.string(), lines.front(),
-                    elsewhere ? "; a site round the trees is made by: bosquet import NAME.toml --trees FILE" : "")};
+    // Where only the site is wrong, it can be laid round the trees, or another one is needed.
+    if (lines.front().find("lies outside the site") == std::string::npos)
+      return Error{fmt::format("{}: no row has a usable position on the site: {}", file.string(), lines.front())};
+    const DVec2 size = *std::exchange(import.reading.size_m, std::nullopt);
+    inventory = read_inventory(file, import.reading);
+    if (!inventory) return inventory.error();
+    const auto [corner, needed] =
+        site_around(inventory->trees, species, static_cast<std::size_t>(fallback - species.begin()), &*synonyms);
+    const bool placed = document.place.south_west != DVec2(0.0) || !document.place.crs_wkt.empty() || inventory->place;
+    if (placed || needed.x > size.x || needed.y > size.y)
+      return Error{
+          fmt::format("{}: no row has a usable position on the site: {}; they fit a new site of {:g} x {:g} m or more, "
+                      "and one round them is made by: bosquet import NAME.toml --trees FILE",
+                      file.string(), lines.front(), needed.x, needed.y)};
+    const DVec2 south_west = corner + glm::floor(0.5 * (needed - size));
+    for (InventoryTree& tree : inventory->trees) tree.plan -= south_west;
+    inventory->place = document.place;
+    inventory->place->south_west = south_west;
+    inventory->notes.push_back(
+        fmt::format("the site had no place on the map; its south-west corner is now at {:.10g}, {:.10g}, "
+                    "so that the trees stand in its middle",
+                    south_west.x, south_west.y));
+    import.reading.size_m = size;
   }
   if (!document.terrain) {
     const auto [corner, size] =

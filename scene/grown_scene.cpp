@@ -1,5 +1,7 @@
 #include "scene/grown_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/hash.h"
@@ -20,6 +22,25 @@ void keep_standing_wood(GrownTree& tree) {
   tree.skeleton = std::make_shared<const growth::Skeleton>(
       growth::without_fallen(tree.season < 0 ? whole : growth::tree_at_season(whole, tree.season)));
   tree.season = -1;
+}
+
+// Surveyed trees that found no room for more than a rest of their crown, as of two at one place the smaller, in one line.
+std::string crowded_words(const GrownScene& scene) {
+  constexpr float kRest = 0.25f;  // of the surveyed crown
+  constexpr std::size_t kNamed = 5;
+  std::size_t count = 0;
+  std::string named;
+  for (std::size_t i = 0; i < scene.trees.size(); ++i) {
+    const Tree& tree = (*scene.document.trees)[i];
+    const float surveyed_m = tree.scale_width * scene.document.species_of(tree).shape.crown_width_m;
+    const float crown_m = scene.trees[i].measures.crown_diameter_m;
+    if (!tree.measured || crown_m >= kRest * surveyed_m || ++count > kNamed) continue;
+    named += fmt::format("{}tree {} ({:.1f} of {:.1f} m)", count > 1 ? ", " : "", tree.id, crown_m, surveyed_m);
+  }
+  if (count == 0) return {};
+  return fmt::format("{} not a quarter of {} measured crown, since neighbours take the room: {}{}",
+                     count == 1 ? "1 tree has" : fmt::format("{} trees have", count), count == 1 ? "its" : "their",
+                     named, count > kNamed ? fmt::format(" and {} more", count - kNamed) : "");
 }
 
 }  // namespace
@@ -88,6 +109,8 @@ Result<GrownScene> grow_scene(const Document& given, const GrowOptions& options,
   scene.skeleton_digest = hasher.digest();
   for (std::string& warning : warnings)
     if (!warning.empty()) scene.warnings.push_back(std::move(warning));
+  if (options.regions && !options.year)
+    if (std::string crowded = crowded_words(scene); !crowded.empty()) scene.warnings.push_back(std::move(crowded));
   scene.seconds["growth"] = watch.restart();
   scene.space = std::move(around->space);
   scene.light = std::move(around->light);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/builtin_species.h"
+#include "scene/species_names.h"
 
 namespace bosquet::scene {
 namespace {
@@ -54,6 +55,16 @@ void check_growth(TomlTable& table, const growth::Parameters& parameters) {
   table.error(mistake->key, mistake->message);
 }
 
+// "oak" is no misspelling of any name, but an inventory that says so means a species.
+std::string meant_species(std::string_view name, const std::vector<std::string>& known) {
+  std::vector<std::shared_ptr<const Species>> species;
+  for (const std::string& each : known)
+    if (auto read = builtin_species(each)) species.push_back(std::make_shared<const Species>(std::move(*read)));
+  const SpeciesMatch meant = match_species(name, species, 0);
+  return meant.how == NameMatch::fallback || meant.how == NameMatch::leaf_type ? nearest_name(name, known)
+                                                                               : species[meant.species]->name;
+}
+
 }  // namespace
 
 void read_species_tables(TomlTable& table, Species& species) {
@@ -99,7 +110,7 @@ Result<Species> builtin_species(std::string_view name) {
   const std::string_view text = builtin_species_text(name);
   if (text.empty()) {
     const std::vector<std::string> known = builtin_species_names();
-    const std::string near = nearest_name(name, known);
+    const std::string near = meant_species(name, known);
     return Error{fmt::format("unknown species '{}'; {}built in are: {}", name,
                              near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(known, ", "))};
   }

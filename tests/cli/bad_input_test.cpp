@@ -41,6 +41,8 @@ TEST_F(BadInput, AParameterOutOfRangeIsToldWithItsRange) {
 TEST_F(BadInput, AnUnknownSpeciesNamesTheKnownOnes) {
   refuses(std::string(kSite) + "[[planting]]\nspecies = { english_aok = 1 }\ncount = 1\n",
           {"bad.toml:4:", "english_aok", "english_oak"});
+  refuses(std::string(kSite) + "[[planting]]\nspecies = { oak = 1 }\ncount = 1\n",
+          {"bad.toml:4:", "unknown species 'oak'; did you mean 'english_oak'?"});
 }
 
 TEST_F(BadInput, AMissingFileIsNamed) {
@@ -49,6 +51,18 @@ TEST_F(BadInput, AMissingFileIsNamed) {
   EXPECT_NE(ran.err.find("nowhere.toml"), std::string::npos);
   refuses(std::string(kSite) + "[terrain]\ndem = \"no.tif\"\n", {"no.tif"});
   refuses(std::string(kSite) + "[[planting]]\nkind = \"inventory\"\nfile = \"no.csv\"\n", {"no.csv"});
+}
+
+TEST_F(BadInput, AMissingPlanPictureIsToldWhateverIsMade) {
+  write("plan.toml", std::string(kSite) +
+                         "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 1\nscale = [0.2, 0.3]\n"
+                         "[underlay]\nfile = \"gone.png\"\nwidth_m = 20\n");
+  const Ran other = bosquet("make plan.toml -o out.csv");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_NE(other.err.find("plan.toml: [underlay] there is no file"), std::string::npos) << other.err;
+  const Ran sheet = bosquet("make plan.toml -o out.plan.png");
+  EXPECT_EQ(sheet.status, 1);
+  EXPECT_NE(sheet.err.find("plan.toml: [underlay] there is no file"), std::string::npos) << sheet.err;
 }
 
 TEST_F(BadInput, ASiteOfZeroOrAbsurdSizeIsRefused) {
@@ -143,7 +157,8 @@ TEST_F(BadInput, NumbersAndWordsOfOptionsAreToldWithWhatIsAllowed) {
   write("fine.toml", std::string(kSite) + "[[planting]]\nspecies = { silver_birch = 1 }\ncount = 1\n");
   const std::pair<const char*, const char*> lines[] = {{"--seed -1", "whole number from 0"},
                                                        {"--max-triangles -1", "whole number from 0"},
-                                                       {"--season winter", "autumn, bare, spring, summer"},
+                                                       {"--seed 18446744073709551616", "0 to 18446744073709551615"},
+                                                       {"--season monsoon", "autumn, bare, spring, summer, winter"},
                                                        {"--detail nan", "0.25 to 4"},
                                                        {"--figure 3m", "east,north in metres"},
                                                        {"--figure 500,2", "outside the site"},

@@ -66,6 +66,40 @@ TEST_F(Commands, SeveralYearsGiveASetOfFilesForEach) {
   EXPECT_EQ(bosquet("stats grove.toml --year 5,60").status, 1);
 }
 
+TEST_F(Commands, SeveralYearsAreToldInTheOrderAskedFor) {
+  const Ran ran = bosquet("make grove.toml -o g.csv --year 15,60,5");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::size_t first = ran.out.find("g-15.csv"), second = ran.out.find("g-60.csv"),
+                    third = ran.out.find("g-5.csv");
+  ASSERT_NE(third, std::string::npos) << ran.out;
+  EXPECT_LT(first, second) << ran.out;
+  EXPECT_LT(second, third) << ran.out;
+}
+
+TEST_F(Commands, WinterIsAnotherNameOfBare) {
+  ASSERT_EQ(bosquet("make grove.toml -o bare.glb --season bare --quiet").status, 0);
+  ASSERT_EQ(bosquet("make grove.toml -o winter.glb --season winter --quiet").status, 0);
+  EXPECT_EQ(file_text(folder_ / "bare.glb"), file_text(folder_ / "winter.glb"));
+  ASSERT_EQ(bosquet("make grove.toml -o autumn.glb --season autumn --quiet").status, 0);
+  EXPECT_NE(file_text(folder_ / "bare.glb"), file_text(folder_ / "autumn.glb"));
+}
+
+TEST_F(Commands, SeedsAndSunsOfTheCommandAreThoseOfRecipes) {
+  const std::string grove = file_text(folder_ / "grove.toml");
+  write("seed.toml",
+        std::string(grove).replace(grove.find("seed ="), grove.find('\n', grove.find("seed =")) - grove.find("seed ="),
+                                   "seed = \"18446744073709551615\""));
+  ASSERT_EQ(bosquet("make seed.toml -o recipe.csv --quiet").status, 0);
+  ASSERT_EQ(bosquet("make grove.toml -o option.csv --seed 18446744073709551615 --quiet").status, 0);
+  EXPECT_EQ(file_text(folder_ / "recipe.csv"), file_text(folder_ / "option.csv"));
+  for (const char* height : {"0", "90"}) {
+    write("sun.toml", grove + "[sun]\nelevation_deg = " + height + "\n");
+    EXPECT_EQ(bosquet("info sun.toml").status, 0) << height;
+    const Ran ran = bosquet(std::string("make grove.toml -o sun.csv --quiet --sun 200,") + height);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+  }
+}
+
 TEST_F(Commands, PicturesOfSeveralYearsHaveTheCameraOfTheOldest) {
   // The same tree at the same age, once beside what it will be and once alone: seen from afar it is small.
   write("one.toml",

@@ -40,6 +40,8 @@ class RecipeWriteTest : public ::testing::Test {
     d.obstacles = std::move(obstacles);
     d.sun.azimuth_deg = -123.45f;
     d.underlay.file = (folder_ / "pictures/plan.png").string();
+    std::filesystem::create_directories(folder_ / "pictures");
+    spit(folder_ / "pictures/plan.png", "its place alone is kept");
     return d;
   }
 

@@ -174,5 +174,29 @@ TEST(TreeImport, TreesOfAnotherPlaceAreRefusedWithTheWayToASiteOfTheirOwn) {
   EXPECT_NE(made.error().message.find("bosquet import NAME.toml --trees FILE"), std::string::npos);
 }
 
+TEST(TreeImport, ASiteWithoutPlaceOnTheMapIsLaidRoundTreesOfMapCoordinatesWhenTheyFit) {
+  const ScratchFolder folder;
+  spit(folder / "t.csv", "x,y,species\n691010,5335020,silver_birch\n691030,5335050,silver_birch\n");
+  const auto site = [](Vec2 size) {
+    scene::Document document;
+    document.terrain = std::make_shared<const terrain::Terrain>(
+        terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice(size))));
+    document.trees = std::make_shared<const scene::Trees>();
+    return document;
+  };
+  const ImportedDocument made = imported(site({100, 80}), folder / "t.csv");
+  EXPECT_EQ(made.tally.trees, 2u);
+  EXPECT_EQ(made.document.terrain->size_m(), Vec2(100, 80));
+  const DVec2 corner = made.document.place.south_west;
+  EXPECT_EQ(Vec2(DVec2(691010, 5335020) - corner), (*made.document.trees)[0].at);
+  const Vec2 middle = 0.5f * ((*made.document.trees)[0].at + (*made.document.trees)[1].at);
+  EXPECT_LE(glm::length(middle - Vec2(50, 40)), 2.0f);
+  EXPECT_TRUE(warns(made.warnings, "the site had no place on the map; its south-west corner is now at 690"));
+
+  const auto small = import_trees(site({20, 80}), folder / "t.csv");
+  ASSERT_FALSE(small);
+  EXPECT_NE(small.error().message.find("they fit a new site of"), std::string::npos) << small.error().message;
+}
+
 }  // namespace
 }  // namespace bosquet::exchange

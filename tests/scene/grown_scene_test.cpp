@@ -120,6 +120,28 @@ TEST(GrownScene, AGivenTrunkDiameterIsMet) {
   EXPECT_NEAR(m.height_m, 14.0f, 1.4f);
 }
 
+TEST(GrownScene, AMeasuredTreeWithoutRoomForItsCrownIsNamed) {
+  // A smaller tree at the place of a large one, as two records of one place are set, and one with room of its own.
+  Document document = sample_document("english_oak", {{10, 10}, {10.2f, 10}, {30, 10}}, {40, 20}, 0.5f);
+  std::vector<Tree> trees = document.trees->to_vector();
+  for (Tree& tree : trees) tree.measured = true;
+  trees[1].scale_height = trees[1].scale_width = 0.2f;
+  document.trees = std::make_shared<const Trees>(trees);
+  const auto warnings = [](const Document& of) {
+    std::vector<std::string> said = grow_scene(of, {}, nullptr)->warnings;
+    std::erase_if(said, [](const std::string& line) { return line.find("measured crown") == std::string::npos; });
+    return said;
+  };
+  const std::vector<std::string> said = warnings(document);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(
+      said.front().find("1 tree has not a quarter of its measured crown, since neighbours take the room: tree 2 ("), 0u)
+      << said.front();
+  for (Tree& tree : trees) tree.measured = false;
+  document.trees = std::make_shared<const Trees>(trees);
+  EXPECT_TRUE(warnings(document).empty()) << "what is planted has the crown that it finds room for";
+}
+
 TEST(GrownScene, ACancelledRunReturnsNoScene) {
   const Document document = sample_document("silver_birch", kPlaces, {18, 18});
   Progress progress;

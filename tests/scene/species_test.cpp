@@ -46,6 +46,16 @@ TEST(Species, EveryBuiltInFileIsReadAndChecked) {
 }
 
 TEST(Species, AnUnknownNameListsTheKnownOnes) {
+  const auto meant = [](const char* name) {
+    const std::string message = builtin_species(name).error().message;
+    const std::size_t at = message.find("did you mean '");
+    return at == std::string::npos ? "" : message.substr(at + 14, message.find("'?", at) - at - 14);
+  };
+  EXPECT_EQ(meant("oak"), "english_oak");
+  EXPECT_EQ(meant("birch"), "silver_birch");
+  EXPECT_EQ(meant("Fagus sylvatica"), "european_beech");
+  EXPECT_EQ(meant("silver_brich"), "silver_birch");
+  EXPECT_EQ(meant("concrete"), "");
   auto species = builtin_species("english_oka");
   ASSERT_FALSE(species);
   EXPECT_NE(species.error().message.find("did you mean 'english_oak'?"), std::string::npos);

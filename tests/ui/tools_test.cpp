@@ -156,6 +156,39 @@ TEST(Tools, TheBrushPlantsWhileItIsHeldAndErasesWithShift) {
   EXPECT_EQ(hand.trees(), 0u);
 }
 
+TEST(Tools, PlantingOnALawnTellsWhatBarsItAndTheToolThatFreesIt) {
+  const Polygon west{{{0, 0}, {30, 0}, {30, 60}, {0, 60}}, {}};
+  const scene::Document meadow = scene::sample_document("silver_birch", {}, {60, 60});
+  const auto stroke = [&](const terrain::Area& area, Vec2 from, Vec2 to) {
+    Hand hand(scene::exclude_area(meadow, west, area).document);
+    hand.take(ToolKind::plant_brush);
+    hand.settings.radius_m = 3;
+    return hand.drag(from, to).message;
+  };
+  const terrain::Area lawn{"", terrain::AreaKind::lawn};
+  EXPECT_NE(stroke(lawn, {10, 10}, {20, 40}).find("; the lawn is kept free of trees, the tool Let plant (7) frees it"),
+            std::string::npos)
+      << stroke(lawn, {10, 10}, {20, 40});
+  EXPECT_NE(stroke({"Long walk", terrain::AreaKind::path}, {10, 10}, {20, 40}).find("; 'Long walk' is kept free"),
+            std::string::npos);
+  EXPECT_NE(stroke({}, {10, 10}, {20, 40}).find("; this ground is kept free"), std::string::npos);
+  // Where most of the stroke is free, and where letting plant helps nobody, there is no such word.
+  EXPECT_EQ(stroke(lawn, {40, 10}, {50, 40}).find("kept free"), std::string::npos);
+  EXPECT_EQ(stroke({"", terrain::AreaKind::building}, {10, 10}, {20, 40}).find("kept free"), std::string::npos);
+
+  Hand hand(scene::exclude_area(meadow, west, lawn).document);
+  hand.take(ToolKind::single);
+  EXPECT_NE(hand.send(Event::Kind::press, {10, 10}).message.find("Let plant (7)"), std::string::npos);
+  hand.take(ToolKind::row);
+  hand.click({10, 10}), hand.click({10, 50});
+  EXPECT_NE(hand.send(Event::Kind::key_press, {1, 1}, {}, Button::none, kKeyEnter).message.find("Let plant (7)"),
+            std::string::npos);
+  hand.take(ToolKind::fill);
+  for (const Vec2 corner : {Vec2{5, 5}, Vec2{25, 5}, Vec2{25, 55}}) hand.click(corner);
+  EXPECT_NE(hand.send(Event::Kind::key_press, {1, 1}, {}, Button::none, kKeyEnter).message.find("Let plant (7)"),
+            std::string::npos);
+}
+
 TEST(Tools, AnotherStrokeLeavesTheTreesOfTheFirstAlone) {
   Hand hand = on_meadow();
   hand.take(ToolKind::plant_brush);

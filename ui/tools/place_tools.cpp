@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "distribution/region.h"
+#include "ui/tools/barred_ground.h"
 #include "ui/tools/standing_edits.h"
 
 namespace bosquet::ui {
@@ -25,13 +26,33 @@ ToolAnswer answered(Result<scene::Edited> edit) {
   return answer;
 }
 
+// The answer of a planting at these places, or of trees sown among them.
+ToolAnswer told(ToolAnswer answer, const ToolScene& scene, std::span<const Vec2> places) {
+  if (!answer.message.empty()) answer.message = with_what_bars(std::move(answer.message), *scene.document, places);
+  return answer;
+}
+
+// Places all over a region.
+std::vector<Vec2> spread(const distribution::Region& region) {
+  constexpr int kAcross = 24;
+  const Box2 box = distribution::bounds(region);
+  std::vector<Vec2> places;
+  for (int j = 0; j < kAcross; ++j)
+    for (int i = 0; i < kAcross; ++i) {
+      const Vec2 at = box.low + box.size() * (Vec2{i, j} + 0.5f) / static_cast<float>(kAcross);
+      if (distribution::contains(region, at)) places.push_back(at);
+    }
+  return places;
+}
+
 }  // namespace
 
 ToolAnswer SingleTool::handle(const ToolEvent& event, const ToolScene& scene) {
   if (event.ground) pointer_ = to_plan(*event.ground);
   if (event.event.kind != Event::Kind::press || event.event.button != Button::left || !event.ground) return {};
   const std::size_t species = std::min(scene.settings->species, scene.document->species.size() - 1);
-  return answered(scene::plant_tree(*scene.document, *scene.planting, species, *pointer_, scene.settings->scale));
+  return told(answered(scene::plant_tree(*scene.document, *scene.planting, species, *pointer_, scene.settings->scale)),
+              scene, {&*pointer_, 1});
 }
 
 Preview SingleTool::preview(const ToolScene& scene) const {
@@ -140,8 +161,9 @@ ToolAnswer RowTool::finish(const std::vector<Vec2>& line, const ToolScene& scene
   const distribution::RowRules& rules = hedge_ ? scene.settings->hedge : scene.settings->row;
   auto made = distribution::row_places(line, rules);
   if (!made) return answered(made.error());
-  return answered(
-      scene::plant_places(*scene.document, *scene.planting, *made, rules.jitter_m, hedge_ ? "hedge" : "row"));
+  return told(
+      answered(scene::plant_places(*scene.document, *scene.planting, *made, rules.jitter_m, hedge_ ? "hedge" : "row")),
+      scene, *made);
 }
 
 std::vector<Vec2> AreaTool::places(const std::vector<Vec2>& line, const ToolScene& scene, std::size_t& count) const {
@@ -162,8 +184,9 @@ ToolAnswer AreaTool::finish(const std::vector<Vec2>& line, const ToolScene& scen
   if (grid_) {
     auto made = distribution::grid_places(region, scene.settings->grid);
     if (!made) return answered(made.error());
-    return answered(
-        scene::plant_places(*scene.document, *scene.planting, *made, scene.settings->grid.jitter_m, "grid"));
+    return told(
+        answered(scene::plant_places(*scene.document, *scene.planting, *made, scene.settings->grid.jitter_m, "grid")),
+        scene, *made);
   }
   std::size_t count = 0;
   places(line, scene, count);
@@ -172,7 +195,7 @@ ToolAnswer AreaTool::finish(const std::vector<Vec2>& line, const ToolScene& scen
     answer.message = "The area is too small for one tree at this density";
     return answer;
   }
-  return answered(scene::plant_area(*scene.document, *scene.planting, region, count));
+  return told(answered(scene::plant_area(*scene.document, *scene.planting, region, count)), scene, spread(region));
 }
 
 Preview MeasureTool::preview(const ToolScene& scene) const {

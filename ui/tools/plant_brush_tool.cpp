@@ -2,13 +2,27 @@
 
 #include <cmath>
 
+#include "ui/tools/barred_ground.h"
+
 namespace bosquet::ui {
 namespace {
 
 // The planting follows the hand at most so often: the stroke is planted anew each time.
 constexpr int kTicksBetween = 3;
 
+// Enough places of a stroke to see what it lies on.
+constexpr std::size_t kPlacesSeen = 64;
+
 }  // namespace
+
+std::vector<Vec2> PlantBrushTool::places() const {
+  std::vector<Vec2> places;
+  const std::size_t step = 1 + events_.size() / kPlacesSeen;
+  for (std::size_t i = 0; i < events_.size(); i += step)
+    for (const Vec2 off : {Vec2{0.0f}, Vec2{0.6f, 0.0f}, Vec2{-0.6f, 0.0f}, Vec2{0.0f, 0.6f}, Vec2{0.0f, -0.6f}})
+      places.push_back(events_[i].at + brush_.radius_m * off);
+  return places;
+}
 
 void PlantBrushTool::add_event(Vec2 at, double time_s) {
   const int tick = std::max(events_.empty() ? 0 : events_.back().tick,
@@ -32,7 +46,7 @@ ToolAnswer PlantBrushTool::plant(const ToolScene& scene, bool agreed) {
     return answer;
   }
   planted_tick_ = events_.back().tick;
-  if (!edit->notes.empty()) answer.message = edit->notes.front();
+  if (!edit->notes.empty()) answer.message = with_what_bars(edit->notes.front(), *before_, places());
   if (!edit->trees.empty()) answer.edit = std::move(*edit), answer.drag = drag_;
   return answer;
 }

@@ -20,6 +20,7 @@ class PlantBrushTool : public Tool {
  private:
   void add_event(Vec2 at, double time_s);
   ToolAnswer plant(const ToolScene& scene, bool agreed);
+  std::vector<Vec2> places() const;
 
   std::shared_ptr<const scene::Document> before_;
   std::vector<distribution::BrushEvent> events_;
