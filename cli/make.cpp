@@ -62,8 +62,7 @@ Result<std::uint64_t> write_model(const Made& made, const path& target) {
 
 Result<std::uint64_t> write_png(const Made& made, const path& target) {
   made.progress.begin("picture", 1);
-  if (auto drawn = write_picture(made.built.model, made.grown.document, made.options, target); !drawn)
-    return drawn.error();
+  if (auto drawn = write_picture(made.built, made.grown, made.options, target); !drawn) return drawn.error();
   return size_of(target);
 }
 
@@ -97,6 +96,8 @@ bool is_made_of_meshes(const path& target) {
   const Writer writer = writer_of(target);
   return writer == write_model || writer == write_png;
 }
+
+bool is_model_file(const path& target) { return writer_of(target) == write_model; }
 
 Result<void> check_folder(const path& target) {
   const path folder = target.has_parent_path() ? target.parent_path() : path(".");
@@ -187,8 +188,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     scene::ModelOptions model{options.season, options.foliage,
                               options.max_triangles.value_or(grown->document.max_triangles)};
     // A model for a picture alone is made for what is seen in it, and files keep to their budget.
-    if (!some_output(options,
-                     [](const path& p) { return is_made_of_meshes(p) && exchange::telling_ending(p) != ".png"; })) {
+    if (!some_output(options, is_model_file)) {
       model.picture = picture_camera(grown->document, options);
       model.picture_height = options.height;
       if (!options.max_triangles && model.max_triangles > 0)
@@ -197,6 +197,7 @@ Result<void> make(const Options& options, Report& report, Progress& progress) {
     const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
     model.paintings = &paintings;
     model.wind = options.wind;
+    model.grass = grown->document.ground_cover.in_files && some_output(options, is_model_file);
     model.levels = options.lod != exchange::LodFiles::none;
     std::atomic<std::size_t> given_up = 0;  // internodes
     if (only_meshes)

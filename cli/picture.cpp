@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "render/sun_position.h"
 #include "scene/figures.h"
+#include "scene/grass.h"
 #include "scene/view_models.h"
 
 namespace bosquet::cli {
@@ -46,6 +47,10 @@ Result<scene::Sun> chosen_sun(const scene::Document& document, const Options& op
   return render::sun_from_text(options.sun, {document.place.latitude_deg, document.place.longitude_deg, {}});
 }
 
+bool shows_grass(const scene::Model& model, const scene::Node& node) {
+  return !node.parts.empty() && model.materials[node.parts.front().material].surface == scene::Surface::grass;
+}
+
 // What stands on the ground, a box for each node; everything where nothing stands.
 std::vector<Box3> what_stands(const scene::Model& model) {
   std::vector<Box3> boxes;
@@ -53,7 +58,8 @@ std::vector<Box3> what_stands(const scene::Model& model) {
     Box3 box;
     for (const scene::Part& part : node.parts) {
       const scene::Surface surface = model.materials[part.material].surface;
-      if (!part.mesh || part.mesh->empty() || surface == scene::Surface::ground || surface == scene::Surface::water)
+      if (!part.mesh || part.mesh->empty() || surface == scene::Surface::ground || surface == scene::Surface::water ||
+          surface == scene::Surface::grass)
         continue;
       const Box3 own = part.mesh->bounds();
       box.add(own.low + node.translation), box.add(own.high + node.translation);
@@ -100,8 +106,10 @@ Result<void> check_picture_options(const scene::Document& document, const Option
   return {};
 }
 
-Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
+Result<void> write_picture(const scene::BuiltModel& built, const scene::GrownScene& grown, const Options& options,
                            const std::filesystem::path& target) {
+  const scene::Model& model = built.model;
+  const scene::Document& document = grown.document;
   const bool plan = options.command == Command::render && from_above(options.view);
   render::View view;
   if (plan) {
@@ -127,13 +135,19 @@ Result<void> write_picture(const scene::Model& model, const scene::Document& doc
   if (!context) return context.error();
   auto renderer = render::Renderer::create();
   if (!renderer) return renderer.error();
-  scene::Model with_figures;
-  const std::vector<scene::Figure> figures = wanted_figures(document, options);
-  if (!figures.empty()) {
-    with_figures = model;
-    scene::add_figures(with_figures, figures, *document.terrain);
+  scene::Model drawn = model;
+  scene::add_figures(drawn, wanted_figures(document, options), *document.terrain);
+  // The renderer has grass of its own.
+  std::erase_if(drawn.nodes, [&](const scene::Node& node) { return shows_grass(drawn, node); });
+  if (auto uploaded = renderer->upload(drawn); !uploaded) return uploaded;
+  if (options.view == ViewKind::trees && !plan) {
+    const scene::GrassSite grass(document, scene::grass_options(grown, options.season, built.ground_triangles));
+    view.grass_reach = scene::grass_reach(view.camera, view.height);
+    renderer->set_grass_season(options.season);
+    std::uint64_t key = 0;
+    for (const scene::GrassPatch& patch : scene::grass_before(grass, view.camera, view.grass_reach))
+      renderer->put_grass(++key, patch);
   }
-  if (auto uploaded = renderer->upload(figures.empty() ? model : with_figures); !uploaded) return uploaded;
   auto image = renderer->draw(view);
   if (!image) return image.error();
   return exchange::write_image(target, *image);

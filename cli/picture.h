@@ -7,13 +7,13 @@
 #include "cli/options.h"
 #include "core/result.h"
 #include "scene/grown_scene.h"
-#include "scene/model.h"
+#include "scene/model_builder.h"
 
 namespace bosquet::cli {
 
 /// Draws by the options' camera, sun and size, with the document's figures and the options'. Without --camera: the recipe's first camera, else the whole site from
 /// the south at 30 degrees.
-Result<void> write_picture(const scene::Model& model, const scene::Document& document, const Options& options,
+Result<void> write_picture(const scene::BuiltModel& built, const scene::GrownScene& grown, const Options& options,
                            const std::filesystem::path& target);
 
 /// The camera that a picture of trees is drawn with, as far as it is known before anything is grown.

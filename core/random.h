@@ -29,6 +29,7 @@ enum class Purpose : std::uint64_t {
   asymmetry = 7,
   scale = 8,
   branch_mesh = 9,
+  ground_cover = 10,
 };
 
 class RandomStream {

@@ -31,7 +31,8 @@ void find_cards(const scene::Model& model, const GltfOptions& options, GltfStock
   std::vector<const TriangleMesh*> leafy;
   std::unordered_map<const TriangleMesh*, bool> seen;
   each_part(model, options, [&](const scene::Node&, const scene::Part& part) {
-    if (model.materials[part.material].mask && seen.try_emplace(part.mesh.get(), true).second)
+    const scene::Material& material = model.materials[part.material];
+    if ((material.mask || material.surface == scene::Surface::grass) && seen.try_emplace(part.mesh.get(), true).second)
       leafy.push_back(part.mesh.get());
   });
   std::vector<std::optional<std::vector<InstancedCard>>> found(leafy.size());

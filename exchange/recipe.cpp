@@ -44,6 +44,7 @@ class Reader {
     if (auto table = root.table("sun")) read_sun(*table);
     if (auto table = root.table("clearance")) describe(recipe_.document.clearance, *table), table->finish();
     if (auto table = root.table("plan")) describe(recipe_.document.plan, *table), table->finish();
+    if (auto table = root.table("ground_cover")) describe(recipe_.document.ground_cover, *table), table->finish();
     if (auto table = root.table("underlay")) read_underlay(*table);
     for (TomlTable& table : root.tables("species_bar")) read_species_bar(table);
     if (auto table = root.table("counters")) read_counters(*table);

@@ -305,7 +305,7 @@ class RecipeText {
                       toml_text(camera.name), place(camera.eye), place(camera.target), number(camera.vertical_fov_deg));
     for (const scene::Figure& figure : d_.figures)
       text_ += fmt::format("\n[[figure]]\nat = {}\nheading_deg = {}\n", point(figure.at), number(figure.heading_deg));
-    text_ += table("clearance", d_.clearance) + table("plan", d_.plan);
+    text_ += table("clearance", d_.clearance) + table("plan", d_.plan) + table("ground_cover", d_.ground_cover);
     if (const scene::Underlay& underlay = d_.underlay; !underlay.file.empty()) {
       TomlText keys{"underlay", {}, {}};
       describe(underlay, keys);

@@ -41,6 +41,15 @@ Vec3 GroundGrid::world_in(int i, int j, int s, int t, int n) const {
   return to_world(plan_in(i, j, s, t, n), y);
 }
 
+float GroundGrid::height_at(Vec2 plan) const {
+  const Vec2 place = plan / size * Vec2(nx, ny);
+  const int i = std::clamp(static_cast<int>(place.x), 0, nx - 1), j = std::clamp(static_cast<int>(place.y), 0, ny - 1);
+  const float a = height[index(i, j)], b = height[index(i + 1, j)];
+  const float c = height[index(i, j + 1)], d = height[index(i + 1, j + 1)];
+  const float u = place.x - static_cast<float>(i), v = place.y - static_cast<float>(j);
+  return u + v <= 1.0f ? a + (b - a) * u + (c - a) * v : d + (c - d) * (1.0f - u) + (b - d) * (1.0f - v);
+}
+
 GroundGrid make_ground_grid(const terrain::Terrain& terrain, std::size_t max_triangles) {
   assert(max_triangles >= 2);
   GroundGrid grid;

@@ -37,6 +37,9 @@ struct GroundGrid {
   Vec2 plan_in(int i, int j, int s, int t, int n) const;
   /// There, on the triangle of the cell.
   Vec3 world_in(int i, int j, int s, int t, int n) const;
+
+  /// Of the triangles' surface at a plan position of the site.
+  float height_at(Vec2 plan) const;
 };
 
 /// `max_triangles` is at least 2.

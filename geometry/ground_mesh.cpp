@@ -4,13 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "core/hash.h"
 #include "core/parallel.h"
-#include "core/scalar.h"
+#include "geometry/ground_colour.h"
 #include "geometry/ground_covers.h"
 #include "geometry/ground_grid.h"
 #include "geometry/ground_texture.h"
@@ -19,15 +18,6 @@ namespace bosquet::geometry {
 namespace {
 
 using terrain::Cover;
-
-// Around the water the ground is wet up to so far above its level; steeper ground than this (cosine) shows soil.
-constexpr float kWetRise_m = 0.25f;
-constexpr float kSteep = 0.80f, kVerySteep = 0.62f;
-
-float step_between(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
-}
 
 Rgba8 tint_of(const Vec3& albedo) {
   const Vec3 tint = glm::clamp(ground_tint(albedo), 0.0f, 1.0f) * 255.0f + 0.5f;
@@ -44,18 +34,8 @@ struct Ground {
 };
 
 Rgba8 colour_at(const Ground& g, Cover cover, Vec2 plan, float height, const Vec3& normal) {
-  Vec3 albedo = cover_colour(cover);
-  if (cover == Cover::natural) {
-    const float shade = g.options.shade ? std::clamp(g.options.shade(plan), 0.0f, 1.0f) : 0.0f;
-    albedo = glm::mix(albedo, kForestFloorColour, shade);
-    albedo = glm::mix(kSoilColour, albedo, step_between(kVerySteep, kSteep, normal.y));
-  }
-  if (const std::optional<float> level = g.terrain.water_level(plan)) {
-    const float rise = height - *level;
-    albedo = glm::mix(kWetSandColour, albedo, step_between(0.25f * kWetRise_m, kWetRise_m, rise));
-    albedo *= glm::mix(0.55f, 1.0f, step_between(-0.8f, 0.0f, rise));  // darker with depth
-  }
-  return tint_of(albedo);
+  const float shade = cover == Cover::natural && g.options.shade ? g.options.shade(plan) : 0.0f;
+  return tint_of(ground_albedo(g.terrain, cover, {plan, height, normal, shade}, g.options.season));
 }
 
 /// The meshes of a chunk, one a cover, that share a vertex wherever triangles of a cover meet.

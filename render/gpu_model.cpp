@@ -105,7 +105,8 @@ GlTexture upload_map(GLint format, int width, int height, GLenum channels, const
 }
 
 Shader shader_of(const scene::Material& material) {
-  if (material.mask || material.surface == scene::Surface::leaf) return Shader::leaf;
+  if (material.mask || material.surface == scene::Surface::leaf || material.surface == scene::Surface::grass)
+    return Shader::leaf;
   if (material.surface == scene::Surface::ground) return Shader::ground;
   if (material.surface == scene::Surface::water) return Shader::water;
   return Shader::solid;

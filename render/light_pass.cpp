@@ -164,7 +164,7 @@ Result<void> Renderer::State::draw_mirror(FrameBlock& block, const ViewVolume& v
   glViewport(0, 0, w, h);
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw_scene(flipped, volume, {true, *level}, true);
+  draw_scene(flipped, volume, {.mirrored = true, .water_level = *level}, true);
   block.water.z = 1;
   block.water.w = *level;
   return {};

@@ -68,6 +68,7 @@ Result<Renderer> Renderer::create() {
 Result<void> Renderer::upload(const scene::Model& model) {
   // What is there goes first: there may not be memory for both.
   state_->model = GpuModel();
+  state_->grass.clear();
   ++state_->scene_count;
   Result<GpuModel> made = GpuModel::make(model);
   if (!made) return made.error();
@@ -93,6 +94,10 @@ void Renderer::remove(std::uint64_t key) {
   ++state_->scene_count;
   state_->model.remove(key);
 }
+
+void Renderer::set_grass_season(geometry::Season season) { state_->grass.set_season(season); }
+
+void Renderer::put_grass(std::uint64_t key, const scene::GrassPatch& patch) { state_->grass.put(key, patch); }
 
 Result<void> Renderer::set_overhead(Overhead overhead) { return state_->model.set_overhead(std::move(overhead)); }
 
@@ -202,7 +207,7 @@ Result<void> Renderer::State::draw(const View& view, const std::function<void(in
       glClearColor(back.r, back.g, back.b, view.sky || view.shading == Shading::silhouette ? 1.0f : 0.0f);
       glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
       if (facts.samples > 1) glEnable(GL_MULTISAMPLE);
-      draw_scene(block, volume, {}, sky_drawn);
+      draw_scene(block, volume, {.grass_reach = view.orthographic_height_m > 0 ? 0.0f : view.grass_reach}, sky_drawn);
       glDisable(GL_FRAMEBUFFER_SRGB);
       tile.resolve(w, h);
       glDisable(GL_FRAMEBUFFER_SRGB);

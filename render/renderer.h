@@ -23,6 +23,7 @@
 #include "render/overhead.h"
 #include "render/texture_levels.h"
 #include "render/view.h"
+#include "scene/grass.h"
 #include "scene/model.h"
 
 namespace bosquet::render {
@@ -58,6 +59,10 @@ class Renderer {
   Result<void> put(std::uint64_t key, const scene::Node& node);
   /// Takes the node with a key away, if there is one.
   void remove(std::uint64_t key);
+  /// The season that grass is drawn in; before any of it.
+  void set_grass_season(geometry::Season season);
+  /// Sets a patch of grass with a key of its own, in place of an earlier one; an empty one takes it away.
+  void put_grass(std::uint64_t key, const scene::GrassPatch& patch);
   /// Maps of what stands overhead (render/overhead.h), made anew by whoever changed the scene; put() and remove() leave
   /// them as they were.
   Result<void> set_overhead(Overhead overhead);

@@ -11,6 +11,7 @@
 
 #include "render/atmosphere.h"
 #include "render/gpu_model.h"
+#include "render/grass.h"
 #include "render/lens.h"
 #include "render/render_target.h"
 #include "render/renderer.h"
@@ -24,6 +25,7 @@ inline constexpr int kTileLimit = 4096;
 struct Pass {
   bool mirrored = false;
   float water_level = 0;
+  float grass_reach = 0;  ///< 0: none
 };
 
 inline Box3 relative(const Box3& box, const Vec3& eye) { return {box.low - eye, box.high - eye}; }
@@ -31,6 +33,7 @@ inline Box3 relative(const Box3& box, const Vec3& eye) { return {box.low - eye, 
 struct Renderer::State {
   Programs programs;
   GpuModel model;
+  GpuGrass grass;
   DrawFacts facts;
   int tile_limit = kTileLimit;
   GLint most_samples = 1, largest_target = 4096;

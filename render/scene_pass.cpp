@@ -114,6 +114,13 @@ void Renderer::State::draw_scene(const FrameBlock& block, const ViewVolume& volu
   draw_parts(programs.leaf, Shader::leaf, leaves, volume.eye);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);
+  if (pass.grass_reach > 0 && !grass.empty()) {
+    // Before the ground, so that what it hides is not shaded.
+    glUseProgram(programs.grass.name());
+    glDisable(GL_CULL_FACE);
+    const GpuGrass::Drawn drawn = grass.draw(programs.grass, block.relative_to_clip, volume.eye, pass.grass_reach);
+    facts.triangles_sent += drawn.triangles, facts.triangles_viewed += drawn.triangles, facts.draws += drawn.draws;
+  }
   draw_all(programs.ground, Shader::ground);
   glDisable(GL_CULL_FACE);
   if (sky_drawn) {

@@ -2,6 +2,15 @@
 
 namespace bosquet::render {
 
+const char* const kGroundPatches = R"(
+// Ground is never even: drier and lusher patches over many metres, as much as `patchiness` (0..1) says.
+vec3 ground_patches(vec2 p, float patchiness) {
+  float wide = patchiness * (layered_noise(p / 38.0) - 0.5), near = patchiness * (layered_noise(p / 7.0 + 31.0) - 0.5);
+  return (1.0 + 0.24 * wide + 0.10 * near) *
+         mix(vec3(1.05, 1.0, 0.90), vec3(0.95, 1.01, 0.98), clamp(0.5 + 1.2 * wide + 0.3 * near, 0.0, 1.0));
+}
+)";
+
 const char* const kGround = R"(
 // A tiling texture at two scales, turned against each other so that it does not seem to repeat; `turned` is the share
 // of the turned one.
@@ -21,12 +30,6 @@ vec3 tufts(vec2 p, float distance_m) {
   vec3 shade = vec3(mix(0.80, 1.16, smoothstep(0.2, 0.8, clump)));
   shade *= mix(vec3(1.0), vec3(1.07, 1.02, 0.93), smoothstep(0.55, 0.95, dry));
   return mix(vec3(1.0), shade, near);
-}
-// Ground is never even: drier and lusher patches over many metres, as much as `patchiness` (0..1) says.
-vec3 ground_patches(vec2 p, float patchiness) {
-  float wide = patchiness * (layered_noise(p / 38.0) - 0.5), near = patchiness * (layered_noise(p / 7.0 + 31.0) - 0.5);
-  return (1.0 + 0.24 * wide + 0.10 * near) *
-         mix(vec3(1.05, 1.0, 0.90), vec3(0.95, 1.01, 0.98), clamp(0.5 + 1.2 * wide + 0.3 * near, 0.0, 1.0));
 }
 )";
 

@@ -43,6 +43,9 @@ float layered_noise(vec2 p) {
 )";
 
 const char* const kLight = R"(
+#ifndef SHADOW_TAPS
+#define SHADOW_TAPS 16
+#endif
 uniform sampler2DArrayShadow shadow_map;
 uniform sampler2D sky_map, cover_map;
 const float pi = 3.14159265;
@@ -110,8 +113,8 @@ float lit_by_cascade(int c, vec3 relative, vec3 normal, float widen) {
   float size = 1.0 / float(textureSize(shadow_map, 0).x);
   vec2 radius = vec2(size * clamp(widen / texel, 1.5, 5.0));
   float lit = 0.0;
-  for (int i = 0; i < 16; ++i) lit += texture(shadow_map, vec4(p.xy + disc[i] * radius, float(c), p.z));
-  return lit * 0.0625;
+  for (int i = 0; i < SHADOW_TAPS; ++i) lit += texture(shadow_map, vec4(p.xy + disc[i] * radius, float(c), p.z));
+  return lit / float(SHADOW_TAPS);
 }
 
 // Share of the sun that a point sees. `normal` faces the sun's side.

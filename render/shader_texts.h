@@ -1,6 +1,7 @@
 // Shader texts: the GLSL that programs are put together from, each text by what it is about.
 //
-// Order     a fragment shader is kFrame, then kNoise, kGround and kLight where it shades, then its own text
+// Order     a fragment shader is kFrame, then kNoise, kGroundPatches, kGround and kLight where it shades, then its own text;
+//           grass shades in its vertex shader, without kGround
 #pragma once
 
 namespace bosquet::render {
@@ -22,8 +23,13 @@ extern const char* const kShadowSolid;
 extern const char* const kShadowLeaf;
 
 // shader_ground.cpp
+extern const char* const kGroundPatches;
 extern const char* const kGround;
 extern const char* const kGroundMain;
+
+// shader_grass.cpp: tufts, lit by the vertex.
+extern const char* const kGrassVertex;
+extern const char* const kGrassFragment;
 
 // shader_sky.cpp: water, sky and the land around the site.
 extern const char* const kWater;

@@ -68,7 +68,7 @@ Result<Program> Program::make(const std::string& name, const std::string& vertex
 }
 
 Result<Programs> Programs::make() {
-  const std::string frame = kFrame, shared = frame + kNoise + kGround + kLight;
+  const std::string frame = kFrame, shared = frame + kNoise + kGroundPatches + kGround + kLight;
   const std::string vertex = frame + kMeshVertex, fragment = shared + kMeshFragment;
   const std::string shadow = std::string("#version 330 core\n") + kShadowVertex;
   Programs programs;
@@ -77,14 +77,17 @@ Result<Programs> Programs::make() {
     const char* name;
     std::string vertex, fragment;
   };
-  const Source sources[] = {{&Programs::solid, "solid", vertex, fragment + kSolid + kSurfaceMain},
-                            {&Programs::leaf_cover, "leaf cover", vertex, frame + kLeafCover},
-                            {&Programs::leaf, "leaf", vertex, fragment + kLeaf + kSurfaceMain},
-                            {&Programs::ground, "ground", vertex, fragment + kGroundMain},
-                            {&Programs::water, "water", vertex, fragment + kWater + kWaterMain},
-                            {&Programs::sky, "sky", frame + kSkyVertex, shared + kWater + kSkyFragment},
-                            {&Programs::shadow_solid, "shadow", shadow, kShadowSolid},
-                            {&Programs::shadow_leaf, "leaf shadow", shadow, kShadowLeaf}};
+  const Source sources[] = {
+      {&Programs::solid, "solid", vertex, fragment + kSolid + kSurfaceMain},
+      {&Programs::leaf_cover, "leaf cover", vertex, frame + kLeafCover},
+      {&Programs::leaf, "leaf", vertex, fragment + kLeaf + kSurfaceMain},
+      {&Programs::ground, "ground", vertex, fragment + kGroundMain},
+      {&Programs::grass, "grass", frame + "#define SHADOW_TAPS 4\n" + kNoise + kGroundPatches + kLight + kGrassVertex,
+       kGrassFragment},
+      {&Programs::water, "water", vertex, fragment + kWater + kWaterMain},
+      {&Programs::sky, "sky", frame + kSkyVertex, shared + kWater + kSkyFragment},
+      {&Programs::shadow_solid, "shadow", shadow, kShadowSolid},
+      {&Programs::shadow_leaf, "leaf shadow", shadow, kShadowLeaf}};
   for (const Source& source : sources) {
     Result<Program> made = Program::make(source.name, source.vertex, source.fragment);
     if (!made) return made.error();

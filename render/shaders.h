@@ -71,7 +71,7 @@ enum TextureUnit : GLint { kUnitColour, kUnitNormal, kUnitShadow, kUnitSky, kUni
 
 /// The renderer's programs.
 struct Programs {
-  Program solid, leaf_cover, leaf, ground, water, sky, shadow_solid, shadow_leaf;
+  Program solid, leaf_cover, leaf, ground, grass, water, sky, shadow_solid, shadow_leaf;
 
   static Result<Programs> make();
 };

@@ -61,6 +61,7 @@ struct View {
   /// Samples per pixel, 1-16, capped by what the driver offers (llvmpipe: 4). 0: 4, but 1 where software draws a
   /// supersampled picture; there samples cost as much as pixels and show less.
   int samples = 0;
+  float grass_reach = 1.0f;  ///< how far tufts of grass are drawn, as a share of the usual; 0 none
   Look look;
 };
 

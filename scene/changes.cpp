@@ -52,6 +52,7 @@ Changes changes(const Document& before, const Document& after) {
   out.sun = before.sun != after.sun;
   out.max_triangles = before.max_triangles != after.max_triangles;
   out.clearance = before.clearance != after.clearance;
+  out.ground_cover = before.ground_cover != after.ground_cover;
   out.plan = before.plan != after.plan || before.underlay != after.underlay;
   out.counters = before.next_tree_id != after.next_tree_id || before.next_standing_id != after.next_standing_id ||
                  before.next_block != after.next_block;

@@ -24,7 +24,7 @@ struct Changes {
   bool obstacles = false, heroes = false;
   bool space = false, asymmetry = false, light = false;  ///< settings of the crown space and what follows
   bool cameras = false, figures = false, sun = false, max_triangles = false;
-  bool clearance = false, plan = false;  ///< plan: the sheet's settings or its underlay
+  bool clearance = false, ground_cover = false, plan = false;  ///< plan: the sheet's settings or its underlay
   bool counters = false;
 
   bool trees() const { return !added.empty() || !removed.empty() || !changed.empty(); }
@@ -32,7 +32,7 @@ struct Changes {
   bool any() const {
     return site || !ground.none() || trees() || !species.empty() || fewer_species || interactions || species_bar ||
            obstacles || heroes || space || asymmetry || light || cameras || figures || sun || max_triangles ||
-           clearance || plan;
+           clearance || ground_cover || plan;
   }
 };
 

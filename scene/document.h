@@ -20,6 +20,7 @@
 #include "distribution/kernels.h"
 #include "distribution/sowing.h"
 #include "scene/clearance.h"
+#include "scene/ground_cover.h"
 #include "scene/hero_tree.h"
 #include "scene/model.h"
 #include "scene/obstacle.h"
@@ -67,6 +68,7 @@ struct Document {
   ClearanceRules clearance;
   PlanSettings plan;
   Underlay underlay;
+  GroundCover ground_cover;
   std::size_t max_triangles = 3'000'000;  ///< of an export; 0 is no limit
   std::int32_t next_tree_id = 1;
   std::int32_t next_standing_id = -1;  ///< of obstacles and hero trees, downward

@@ -265,6 +265,8 @@ Digest128 of_settings(const Document& d) {
   add_described(hash, d.plan);
   add_described(hash, d.underlay);
   hash.add(d.underlay.file).add(d.underlay.south_west.x).add(d.underlay.south_west.y);
+  // Files from before there was grass keep their digests.
+  if (d.ground_cover != GroundCover{}) add_described(hash, d.ground_cover);
   return hash.digest();
 }
 

@@ -18,7 +18,7 @@
 namespace bosquet::scene {
 
 /// What a surface is; the renderer shades by it, glTF names it.
-enum class Surface { bark, leaf, ground, water, obstacle };
+enum class Surface { bark, leaf, ground, water, obstacle, grass };
 
 struct Material {
   std::string name;

@@ -13,14 +13,14 @@
 #include "geometry/ground_mesh.h"
 #include "geometry/water_mesh.h"
 #include "growth/radii.h"
+#include "scene/crown_cover.h"
+#include "scene/grass.h"
 #include "scene/materials.h"
 #include "scene/tree_parts.h"
 
 namespace bosquet::scene {
 namespace {
 
-// Grass thins out under a crown, but a single tree does not bare the ground; where crowns overlap their shade adds up.
-constexpr float kMostShade = 0.5f;
 constexpr std::size_t kMostGroundTriangles = 200'000;
 // The least a tree's weight may divide by: a camera inside a crown must not take the whole budget.
 constexpr float kNearest_m = 8.0f;
@@ -32,32 +32,6 @@ constexpr double kEvenShare = 0.35;
 constexpr float kOutOfPicture = 0.35f;
 // From so many pixels across on a leaf shows its shape: a twig drawn on a card is seen to be flat.
 constexpr float kLeafPixels = 2.0f;
-
-// How much of each square metre lies under crowns, for the colour of the ground.
-std::function<float(Vec2)> crown_cover(const GrownScene& scene) {
-  const Vec2 size = scene.document.terrain->size_m();
-  const float cell = std::max(1.0f, std::max(size.x, size.y) / 2048.0f);
-  const IVec2 cells(static_cast<int>(size.x / cell) + 1, static_cast<int>(size.y / cell) + 1);
-  auto cover =
-      std::make_shared<std::vector<float>>(static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y), 0.0f);
-  for (std::size_t t = 0; t < scene.trees.size(); ++t) {
-    const Vec2 at = (*scene.document.trees)[t].at;
-    const float radius = std::max(0.5f, 0.55f * scene.trees[t].measures.crown_diameter_m);
-    const IVec2 low = glm::max(IVec2((at - radius) / cell), IVec2(0)),
-                high = glm::min(IVec2((at + radius) / cell), cells - 1);
-    for (int j = low.y; j <= high.y; ++j)
-      for (int i = low.x; i <= high.x; ++i) {
-        const float d = glm::length((Vec2(i, j) + 0.5f) * cell - at) / radius;
-        float& c =
-            (*cover)[static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(i)];
-        c = std::min(1.0f, c + kMostShade * std::max(0.0f, 1.0f - d * d));
-      }
-  }
-  return [cover, cells, cell](Vec2 plan) {
-    const IVec2 c = glm::clamp(IVec2(plan / cell), IVec2(0), cells - 1);
-    return (*cover)[static_cast<std::size_t>(c.y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(c.x)];
-  };
-}
 
 // How large a tree appears to the camera that shows it largest: height over distance, less where it is out of the
 // picture.
@@ -234,6 +208,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
     ground_options.max_triangles = std::clamp<std::size_t>(
         static_cast<std::size_t>(kGroundShare * static_cast<float>(options.max_triangles)), 2, kMostGroundTriangles);
   ground_options.shade = crown_cover(scene);
+  ground_options.season = options.season;
   std::vector<geometry::GroundPiece> ground = geometry::mesh_ground(*document.terrain, ground_options);
   TriangleMesh water = geometry::mesh_water(*document.terrain, ground_options.max_triangles);
   const std::size_t tree_count = scene.trees.size() + document.heroes.size();
@@ -257,6 +232,7 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
           obstacles == 0 ? "" : fmt::format(", {} of obstacles", obstacles), geometry::kTwoCardTriangles, tree_count)};
   }
   built.triangles += triangles(ground);
+  built.ground_triangles = ground_options.max_triangles;
   const bool one_chunk = ground.back().chunk == 0;
   for (std::size_t p = 0; p < ground.size(); ++p) {
     geometry::GroundPiece& piece = ground[p];
@@ -270,6 +246,23 @@ Result<BuiltModel> build_model(const GrownScene& scene, const ModelOptions& opti
   if (!water.empty()) {
     built.triangles += water.triangles();
     model.nodes.push_back(mesh_node("water", std::move(water), site_material(document, kWaterPart)));
+  }
+
+  if (options.grass) {
+    std::size_t spare = 0;
+    if (options.max_triangles > 0) {
+      std::size_t others = built.triangles + geometry::kTwoCardTriangles * tree_count;
+      for (const Obstacle& obstacle : document.obstacles) others += obstacle.mesh->triangles();
+      spare = std::min(static_cast<std::size_t>(kGrassShare * static_cast<float>(options.max_triangles)),
+                       options.max_triangles - others);
+    }
+    if (spare > 0 || options.max_triangles == 0) {
+      const GrassSite site(document, grass_options(scene, options.season, built.ground_triangles));
+      BakedGrass grass = bake_grass(site, document.cameras, model.materials.size(), spare);
+      if (!grass.nodes.empty()) model.materials.push_back(grass_material(options.season));
+      built.triangles += grass.triangles;
+      std::move(grass.nodes.begin(), grass.nodes.end(), std::back_inserter(model.nodes));
+    }
   }
 
   for (const Obstacle& obstacle : document.obstacles) {

@@ -1,6 +1,6 @@
 // Model builder: meshes, materials and cameras of a grown scene, within a triangle budget.
 //
-// Model     ground and water take at most kGroundShare of the budget, the trees share the rest: each tree asks for what
+// Model     ground and water take at most kGroundShare of the budget, grass kGrassShare, the trees share the rest: each tree asks for what
 //           its full mesh needs; when that is too much every tree gets a + c * w^3, never more than it asks for: a an even
 //           share of a part of the budget, w the largest apparent size (height / distance) to any camera of the recipe,
 //           less out of its picture, or the height without cameras, c such that the sum is the budget
@@ -24,7 +24,7 @@
 
 namespace bosquet::scene {
 
-inline constexpr float kGroundShare = 0.08f;
+inline constexpr float kGroundShare = 0.08f, kGrassShare = 0.12f;
 
 struct ModelOptions {
   geometry::Season season = geometry::Season::summer;
@@ -32,6 +32,7 @@ struct ModelOptions {
   std::size_t max_triangles = 3'000'000;     ///< of the finest levels; 0: no limit
   bool levels = false;                       ///< trees get coarser levels too (scene/tree_parts.h)
   bool wind = false;                         ///< trees get wind weights (geometry/wind.h)
+  bool grass = false;                        ///< the model has the tufts that its cameras see best (scene/grass.h)
   const PaintingCache* paintings = nullptr;  ///< textures painted before; may be null
   /// The model is for one picture: budgets go by its camera alone, and trees so near that single leaves can be told are
   /// built of them where clusters would do for others.
@@ -44,6 +45,7 @@ struct ModelOptions {
 struct BuiltModel {
   Model model;
   Seconds seconds;                                                   ///< "geometry", "textures"
+  std::size_t ground_triangles = 0;                                  ///< geometry::GroundOptions::max_triangles
   std::size_t leaf_cards = 0;                                        ///< leaves or leafed twigs in the meshes
   std::size_t triangles = 0;                                         ///< of the finest levels
   std::size_t mesh_bytes = 0;                                        ///< of all levels, in memory

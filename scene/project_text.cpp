@@ -29,6 +29,7 @@ Json settings_json(const Document& d) {
   json["underlay"] = described_json(d.underlay);
   json["underlay"]["file"] = d.underlay.file;
   json["underlay"]["south_west"] = json_of(d.underlay.south_west);
+  json["ground_cover"] = described_json(d.ground_cover);
   json["max_triangles"] = d.max_triangles;
   json["next_tree_id"] = d.next_tree_id;
   json["next_standing_id"] = d.next_standing_id;
@@ -70,6 +71,8 @@ void read_settings(JsonReader& in, Document& d) {
     underlay.text("file", d.underlay.file);
     underlay.vector("south_west", d.underlay.south_west);
   }
+  // Files from before there was grass say nothing of it.
+  read_described(in, "ground_cover", d.ground_cover);
   in.count("max_triangles", d.max_triangles);
   in.whole("next_tree_id", d.next_tree_id);
   in.whole("next_standing_id", d.next_standing_id);

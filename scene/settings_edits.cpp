@@ -138,6 +138,10 @@ Edited set_underlay(const Document& document, const Underlay& underlay) {
 Edited set_max_triangles(const Document& document, std::size_t max_triangles) {
   return changed(document, "Change triangle budget", [&](Document& d) { d.max_triangles = max_triangles; });
 }
+Result<Edited> set_ground_cover(const Document& document, const GroundCover& cover) {
+  if (auto done = in_range(cover); !done) return done.error();
+  return changed(document, "Change grass", [&](Document& d) { d.ground_cover = cover; });
+}
 Edited set_seed(const Document& document, std::uint64_t seed) {
   return changed(document, "Change seed", [&](Document& d) { d.seed = seed; });
 }

@@ -25,6 +25,7 @@ Edited set_cameras(const Document& document, SharedList<Camera> cameras);
 Edited set_place(const Document& document, const Georeference& place);
 Edited set_max_triangles(const Document& document, std::size_t max_triangles);
 Edited set_underlay(const Document& document, const Underlay& underlay);
+Result<Edited> set_ground_cover(const Document& document, const GroundCover& cover);
 Edited set_seed(const Document& document, std::uint64_t seed);
 
 Result<Edited> set_space(const Document& document, const crowns::SpaceOptions& space);

@@ -11,6 +11,7 @@
 #include "render/headless_context.h"
 #include "render/renderer.h"
 #include "scene/figures.h"
+#include "scene/grass.h"
 #include "scene/view_models.h"
 
 namespace bosquet::ui {
@@ -101,6 +102,12 @@ ExportSize estimate(const scene::GrownScene& scene, const ExportSettings& settin
     size.triangles +=
         geometry::estimate_triangles(*grown.skeleton, grown.skeleton->radius, species.look, species.foliage, {});
   }
+  if (scene.document.ground_cover.in_files) {
+    const scene::GrassSite grass(scene.document, {});
+    size.triangles += scene::grass_triangles(
+        grass, scene.document.cameras,
+        static_cast<std::size_t>(scene::kGrassShare * static_cast<float>(std::max(0, settings.max_triangles))));
+  }
   if (settings.max_triangles > 0)
     size.triangles = std::min(size.triangles, static_cast<std::uint64_t>(settings.max_triangles));
   double each = settings.preset == ExportPreset::web ? kPackedBytesPerTriangle : kBytesPerTriangle;
@@ -130,14 +137,19 @@ Result<std::string> write_model(const scene::Model& model, std::size_t triangles
                      static_cast<double>(written->bytes) / 1e6, triangles);
 }
 
+/// `grass`: what grows before the camera.
 Result<std::string> write_picture(const scene::Model& model, const render::View& view,
-                                  const std::filesystem::path& target, Progress* progress) {
+                                  const std::vector<scene::GrassPatch>& grass, const std::filesystem::path& target,
+                                  Progress* progress) {
   progress->begin("picture", 1);
   auto context = render::HeadlessContext::create();
   if (!context) return context.error();
   auto renderer = render::Renderer::create();
   if (!renderer) return renderer.error();
   if (auto uploaded = renderer->upload(model); !uploaded) return uploaded.error();
+  renderer->set_grass_season(geometry::Season::summer);
+  std::uint64_t key = 0;
+  for (const scene::GrassPatch& patch : grass) renderer->put_grass(++key, patch);
   auto image = renderer->draw(view);
   if (!image) return image.error();
   if (auto written = exchange::write_image(target, *image); !written) return written.error();
@@ -175,20 +187,25 @@ Result<std::string> write_export(const ExportOrder& order, Progress* progress) {
     return Error{target.string() + ": ends in nothing that the window can write"};
   if (picture && order.show != Show::trees) {
     auto model = shown_model(order);
-    return model ? write_picture(*model, order.view, target, progress) : model.error();
+    return model ? write_picture(*model, order.view, {}, target, progress) : model.error();
   }
   scene::ModelOptions options;
   options.max_triangles = static_cast<std::size_t>(std::max(0, order.settings.max_triangles));
   const scene::PaintingCache paintings(exchange::TextureCache::of_user().folder());
   options.paintings = &paintings;
   if (picture) options.picture = order.view.camera, options.picture_height = order.view.height;
+  options.grass = !picture && order.scene.document.ground_cover.in_files;
   options.wind = !picture && order.settings.preset == ExportPreset::engines;
   auto built = scene::build_model(order.scene, options, progress);
   if (!built) return built.error();
   if (!picture) return write_model(built->model, built->triangles, order.settings, target, progress);
   const auto& figures = order.scene.document.figures;
   scene::add_figures(built->model, {figures.begin(), figures.end()}, *order.scene.document.terrain);
-  return write_picture(built->model, order.view, target, progress);
+  render::View view = order.view;
+  view.grass_reach = scene::grass_reach(view.camera, view.height);
+  const scene::GrassSite grass(order.scene.document,
+                               scene::grass_options(order.scene, options.season, built->ground_triangles));
+  return write_picture(built->model, view, scene::grass_before(grass, view.camera, view.grass_reach), target, progress);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ std::uint64_t key_of(Kind kind, std::uint64_t number) { return kind << 40 | numb
 enum : std::size_t { kShapeMaterial = scene::kOfSite, kFlatMaterial };
 
 constexpr std::size_t kGroundTriangles = 60'000;
+// How far grass is drawn, as a share of what a picture shows: less where every blade costs the processor.
+constexpr float kGrassReach = 0.8f, kSoftwareGrassReach = 0.4f;
 constexpr Rgba8 kFigureColour(12, 12, 14, 255);
 constexpr float kUnderlayLift_m = 0.06f;
 // A full picture that takes longer would hold up the hand.
@@ -73,6 +75,7 @@ Result<SceneView> SceneView::create() {
   base.materials.push_back(shape);
   view.site_materials_ = base.materials;
   if (auto uploaded = view.renderer_->upload(base); !uploaded) return uploaded.error();
+  view.renderer_->set_grass_season(geometry::Season::summer);
   return view;
 }
 
@@ -425,12 +428,67 @@ void SceneView::update(Session& session) {
     }
   } while (watch.seconds() < kUpload_s);
   follow_view_model(session);
+  follow_grass(*document, session.rig.camera().eye, kUpload_s, watch);
   follow_overhead(!session.pipeline().idle());
 }
 
+// Tiles come as the eye nears them and go as it leaves, the nearest first, as far as a frame has time. Each comes with more
+// tufts than it shows, so that a small step needs no other.
+void SceneView::follow_grass(const scene::Document& document, const Vec3& eye, double until_s, const Stopwatch& watch) {
+  const auto number = [](IVec2 tile) {
+    return static_cast<std::uint64_t>(tile.y) << 32 | static_cast<std::uint32_t>(tile.x);
+  };
+  const auto drop = [&](std::pair<int, int> at) {
+    renderer_->put_grass(number({at.first, at.second}), {{at.first, at.second}, {}});
+  };
+  const bool same = grass_of_ && grass_of_->terrain == document.terrain &&
+                    grass_of_->ground_cover == document.ground_cover && grass_of_->seed == document.seed &&
+                    grass_of_->obstacles.shares(document.obstacles);
+  if (!same) {
+    for (const auto& [at, rank] : grass_tiles_) drop(at);
+    if (!grass_tiles_.empty()) ++changed_;
+    grass_tiles_.clear();
+    grass_site_ = std::make_shared<const scene::GrassSite>(
+        document, scene::GrassSiteOptions{.ground_triangles = kGroundTriangles});
+  }
+  grass_of_ = shown_;
+  grass_due_ = false;
+  if (show != Show::trees || grass_site_->empty()) return;
+
+  const float reach = grass_reach();
+  std::vector<std::pair<float, IVec2>> wanted;
+  for (const scene::GrassTile& near : scene::grass_tiles(*grass_site_, eye, reach * geometry::kFarthestGrassM))
+    wanted.emplace_back(near.distance_m, near.tile);
+  std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a.first, a.second.y, a.second.x) < std::tuple(b.first, b.second.y, b.second.x);
+  });
+  for (auto at = grass_tiles_.begin(); at != grass_tiles_.end();)
+    if (const IVec2 tile(at->first.first, at->first.second);
+        std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return w.second == tile; })) {
+      drop(at->first);
+      at = grass_tiles_.erase(at);
+    } else {
+      ++at;
+    }
+  for (const auto& [distance, tile] : wanted) {
+    const auto known = grass_tiles_.find({tile.x, tile.y});
+    if (known != grass_tiles_.end() && known->second >= geometry::full_rank(distance / reach)) continue;
+    if (watch.seconds() > until_s) {
+      grass_due_ = true;
+      break;
+    }
+    const float rank = geometry::full_rank(std::max(0.0f, distance - 0.5f * geometry::kGrassTileM) / reach);
+    renderer_->put_grass(number(tile), grass_site_->patch(tile, rank));
+    grass_tiles_[{tile.x, tile.y}] = rank;
+    ++changed_;
+  }
+}
+
+float SceneView::grass_reach() { return render::draws_by_software() ? kSoftwareGrassReach : kGrassReach; }
+
 bool SceneView::settled() const {
-  return waiting_.empty() && !heroes_wait_ && !underlay_read_.valid() && species_made_.empty() && !overhead_.valid() &&
-         overhead_for_ == changed_ && drawn_for_ == changed_;
+  return waiting_.empty() && !grass_due_ && !heroes_wait_ && !underlay_read_.valid() && species_made_.empty() &&
+         !overhead_.valid() && overhead_for_ == changed_ && drawn_for_ == changed_;
 }
 
 void SceneView::draw(const Session& session, IVec2 size, bool moving, double time_s) {
@@ -454,6 +512,7 @@ void SceneView::draw(const Session& session, IVec2 size, bool moving, double tim
   view.quality = full ? render::Quality::full : render::Quality::draft;
   view.supersample = 1;
   view.samples = render::draws_by_software() ? 1 : 4;
+  view.grass_reach = show == Show::trees ? grass_reach() : 0.0f;
   if (is_flat(show)) {
     view.shading = render::Shading::flat;
     view.sky = false;

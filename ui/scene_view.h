@@ -17,8 +17,10 @@
 #include <vector>
 
 #include "core/result.h"
+#include "core/stopwatch.h"
 #include "render/picture_target.h"
 #include "render/renderer.h"
+#include "scene/grass.h"
 #include "scene/model.h"
 #include "scene/pipeline.h"
 #include "ui/hero_meshes.h"
@@ -73,6 +75,8 @@ class SceneView {
   void show_shape(const scene::Document& document, const scene::Tree& tree);
   void follow_view_model(const Session& session);
   void follow_overhead(bool growing);
+  static float grass_reach();
+  void follow_grass(const scene::Document& document, const Vec3& eye, double until_s, const Stopwatch& watch);
   std::optional<std::size_t> materials_of(const scene::Document& document, std::size_t species);
 
   std::optional<render::Renderer> renderer_;
@@ -97,6 +101,12 @@ class SceneView {
   float underlay_shape_ = 0;  ///< height per width; 0: none was read
   std::shared_ptr<const terrain::Terrain> underlay_on_;
   bool underlay_shown_ = false;
+
+  // Grass around the eye, tile by tile, and what it was made for.
+  std::shared_ptr<const scene::GrassSite> grass_site_;
+  std::shared_ptr<const scene::Document> grass_of_;
+  std::map<std::pair<int, int>, float> grass_tiles_;  ///< the rank up to which a tile is there
+  bool grass_due_ = false;                            ///< tiles are missing
 
   std::vector<scene::Material> site_materials_;
   std::future<render::Overhead> overhead_;

@@ -254,6 +254,7 @@ TEST(RecipeDocumentation, ListsEveryParameterAsTheCodeDeclaresIt) {
   add(scene::ClearanceRules{});
   add(scene::PlanSettings{});
   add(scene::Underlay{});
+  add(scene::GroundCover{});
   EXPECT_GT(rows.rows.size(), 100u);
   for (const std::string& row : rows.rows) EXPECT_TRUE(lines.count(row)) << "docs/recipe.md lacks: " << row;
 }

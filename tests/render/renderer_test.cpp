@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/random.h"
+#include "geometry/ground_texture.h"
 #include "render/atmosphere.h"
 #include "render/framing.h"
 #include "render/gl.h"
@@ -466,6 +467,91 @@ TEST_F(RendererTest, ADraftHasTheFullPicturesLightAndShadow) {
     for (const Vec3& p : {Vec3(20, 0, -26), Vec3(14, 0, -20), Vec3(10, 0, -10), Vec3(30, 0, -12)})
       EXPECT_NEAR(luminance(light_at(draft, pixel_of(view, p))), luminance(light_at(full, pixel_of(view, p))), 0.02f);
   }
+}
+
+/// Even ground of a meadow's colour with grass on it, or without.
+class GrassTest : public RendererTest {
+ protected:
+  static constexpr float kSide = 100.0f;
+
+  static scene::Model bare() {
+    scene::Model model = test::ground_scene(kSide);
+    model.materials[0].base_factor = Vec4(geometry::kMeadowColour, 1.0f);
+    model.materials[0].patchiness = 0.0f;
+    model.sun = {230, 45};
+    return model;
+  }
+  static Image draw_with(const scene::GrassSite& site, const View& view) {
+    EXPECT_TRUE(renderer_->upload(bare()));
+    renderer_->set_grass_season(geometry::Season::summer);
+    std::uint64_t key = 0;
+    for (const scene::GrassPatch& patch : scene::grass_before(site, view.camera, view.grass_reach))
+      renderer_->put_grass(++key, patch);
+    Result<Image> image = renderer_->draw(view);
+    EXPECT_TRUE(image);
+    return std::move(*image);
+  }
+  static scene::GrassSite meadow() {
+    scene::Document document;
+    document.terrain = std::make_shared<const terrain::Terrain>(
+        terrain::make_terrain(terrain::Heightfield(*terrain::make_lattice(Vec2(kSide)))));
+    document.trees = std::make_shared<const scene::Trees>();
+    return scene::GrassSite(document, {});
+  }
+  static View from_eye_height() {
+    View view = small_view({50, 1.7f, -10}, {50, 0.9f, -22});
+    view.width = 320, view.height = 240, view.supersample = 2;
+    return view;
+  }
+  /// Mean light of some rows, counted as shares of the picture's height from its top.
+  static Vec3 mean_of_rows(const Image& image, float from, float to) {
+    Vec3 sum(0.0f);
+    int n = 0;
+    for (int y = static_cast<int>(from * static_cast<float>(image.height));
+         y < static_cast<int>(to * static_cast<float>(image.height)); ++y)
+      for (int x = 0; x < image.width; ++x, ++n) sum += light_at(image, {x, y});
+    return sum / static_cast<float>(n);
+  }
+};
+
+TEST_F(GrassTest, ItHasTheToneOfTheGroundAtEveryDistance) {
+  const scene::GrassSite site = meadow();
+  const View view = from_eye_height();
+  const Image without = draw(bare(), view), with = draw_with(site, view);
+  EXPECT_NE(without.pixels, with.pixels);
+  for (const float row : {0.45f, 0.55f, 0.65f, 0.75f, 0.85f}) {
+    const Vec3 a = mean_of_rows(without, row, row + 0.1f), b = mean_of_rows(with, row, row + 0.1f);
+    EXPECT_NEAR(b.g / a.g, 1.0f, 0.15f) << row;
+    EXPECT_NEAR(b.r / b.g, a.r / a.g, 0.12f) << row;
+  }
+}
+
+TEST_F(GrassTest, ItIsGoneBeforeTheEndOfItsReachWithoutAnEdge) {
+  const scene::GrassSite site = meadow();
+  View view = from_eye_height();
+  draw_with(site, view);
+  const std::size_t near = renderer_->facts().triangles_viewed;
+  // From farther up there is less of it, and none in plans or from so high that no tuft can be told.
+  view.camera = look_at_world({50, 30, 0}, {50, 0, -40});
+  draw_with(site, view);
+  EXPECT_LT(renderer_->facts().triangles_viewed, near / 4);
+  view.camera = look_at_world({50, 90, 0}, {50, 0, -40});
+  EXPECT_EQ(draw(bare(), view).pixels, draw_with(site, view).pixels);
+  view = from_eye_height();
+  view.grass_reach = 0.0f;
+  EXPECT_EQ(draw(bare(), view).pixels, draw_with(site, view).pixels);
+}
+
+TEST_F(GrassTest, APatchThatIsEmptiedIsGone) {
+  const scene::GrassSite site = meadow();
+  const View view = from_eye_height();
+  draw_with(site, view);
+  std::uint64_t key = 0;
+  for (const scene::GrassPatch& patch : scene::grass_before(site, view.camera, view.grass_reach))
+    renderer_->put_grass(++key, {patch.tile, {}});
+  const Result<Image> after = renderer_->draw(view);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->pixels, draw(bare(), view).pixels);
 }
 
 TEST_F(RendererTest, ImpossiblePicturesAreRefusedWithTheAllowedRange) {

@@ -93,7 +93,7 @@ inline Document full_document(int trees = 300) {
   {
     [[maybe_unused]] const auto& [seed, place, terrain, species, interactions, species_bar, tree_list, obstacles,
                                   heroes, space, asymmetry, light, cameras, figures, sun, clearance, plan, underlay,
-                                  max_triangles, next_tree_id, next_standing_id, next_block] = Document{};
+                                  ground_cover, max_triangles, next_tree_id, next_standing_id, next_block] = Document{};
   }
   Document d;
   d.seed = 0xfedcba9876543210ull;
@@ -174,6 +174,7 @@ inline Document full_document(int trees = 300) {
   d.plan = changed_everywhere<PlanSettings>();
   d.underlay = changed_everywhere<Underlay>();
   d.underlay.file = "plan.png", d.underlay.south_west = {-3.125, 4.5};
+  d.ground_cover = changed_everywhere<GroundCover>();
   d.max_triangles = 1'234'567;
   d.next_tree_id = 100'000;
   d.next_standing_id = -77;

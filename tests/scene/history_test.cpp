@@ -135,6 +135,7 @@ TEST(DocumentDigest, EverySectionShowsItsOwnChanges) {
   d.seed = 12, differs(d, Section::site);
   d = before, d.sun.azimuth_deg = 1, differs(d, Section::settings);
   d = before, d.clearance.path_m = 1, differs(d, Section::settings);
+  d = before, d.ground_cover.density = 2, differs(d, Section::settings);
   d = before, d.plan.title = "Sheet", differs(d, Section::settings);
   d = before, d.underlay.file = "plan.png", differs(d, Section::settings);
   d = before, d.interactions.push_back({"silver_birch", "silver_birch"}), differs(d, Section::planting);

@@ -32,6 +32,7 @@ void expect_equal(const Document& a, const Document& b) {
   EXPECT_EQ(a.clearance, b.clearance);
   EXPECT_EQ(a.plan, b.plan);
   EXPECT_EQ(a.underlay, b.underlay);
+  EXPECT_EQ(a.ground_cover, b.ground_cover);
   EXPECT_EQ(a.species_bar, b.species_bar);
   EXPECT_EQ(a.max_triangles, b.max_triangles);
   EXPECT_EQ(a.next_tree_id, b.next_tree_id);

@@ -389,6 +389,15 @@ void Panels::site_page(App& app) {
   ImGui::SetNextItemWidth(-1);
   slider("Exposure", app.view_->look.exposure_ev, -2, 2, "%+.1f EV");
   explain("Makes the picture brighter or darker");
+  scene::GroundCover cover = document->ground_cover;
+  ImGui::SetNextItemWidth(-1);
+  const bool grown = slider("Grass", cover.density, 0, 3, "%.1f");
+  mark(app, "Grass");
+  explain("Tufts on lawns and meadows near the eye; 1 is usual, 0 draws none");
+  if (auto edit = scene::set_ground_cover(*document, cover); grown && edit) {
+    if (app.inspector_drag_ == 0) app.inspector_drag_ = new_drag();
+    s.apply(std::move(*edit), app.inspector_drag_);
+  }
   if (!document->underlay.file.empty()) underlay_fields(app);
   if (!ImGui::IsAnyItemActive()) app.inspector_drag_ = 0;
 
