@@ -17,7 +17,7 @@ install(DIRECTORY ${folders} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/bosquet" C
         FILES_MATCHING PATTERN "*.h"
         PATTERN "species" EXCLUDE
         PATTERN "project_json.h" EXCLUDE PATTERN "gltf_json.h" EXCLUDE
-        PATTERN "gl.h" EXCLUDE PATTERN "gpu_model.h" EXCLUDE PATTERN "render_target.h" EXCLUDE
+        PATTERN "gl.h" EXCLUDE PATTERN "gpu_*.h" EXCLUDE PATTERN "render_target.h" EXCLUDE
         PATTERN "renderer_state.h" EXCLUDE PATTERN "shader*.h" EXCLUDE)
 install(EXPORT bosquetTargets NAMESPACE bosquet:: DESTINATION "${package}" COMPONENT library)
 configure_package_config_file(cmake/bosquetConfig.cmake.in "${PROJECT_BINARY_DIR}/bosquetConfig.cmake"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "render/atmosphere.h"
+#include "render/gpu_grass.h"
 #include "render/gpu_model.h"
-#include "render/grass.h"
 #include "render/lens.h"
 #include "render/render_target.h"
 #include "render/renderer.h"

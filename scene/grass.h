@@ -3,7 +3,7 @@
 // Model     geometry/grass_field.h says where tufts stand and geometry/grass_tuft.h what they are like; here trunks, buildings
 //           and other obstacles keep their ground free. A picture takes tiles around the eye; a file takes the tufts that
 //           its cameras see best, baked into meshes of tiles, as copies that exchange/gltf_instances.h finds again
-// Decision  tufts are no part of a model that is drawn: a renderer draws them instanced (render/grass.h), each fading on its own
+// Decision  tufts are no part of a model that is drawn: a renderer draws them instanced (render/gpu_grass.h), each fading on its own
 // Units     metres; `reach` is how much farther than with a usual lens and screen tufts can be told
 // Holds     the same bits for any number of threads
 #pragma once

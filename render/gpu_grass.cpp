@@ -1,4 +1,4 @@
-#include "render/grass.h"
+#include "render/gpu_grass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,7 +128,8 @@ GpuGrass::Drawn GpuGrass::draw(const Program& program, const Mat4& relative_to_c
       constexpr GLsizei kStride = sizeof(TuftInstance);
       glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, kStride, at_offset(first + offsetof(TuftInstance, place)));
       glVertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, kStride, at_offset(first + offsetof(TuftInstance, turn)));
-      glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, at_offset(first + offsetof(TuftInstance, colour)));
+      glVertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
+                            at_offset(first + offsetof(TuftInstance, colour)));
       glVertexAttribPointer(5, 3, GL_BYTE, GL_TRUE, kStride, at_offset(first + offsetof(TuftInstance, normal)));
       glDrawElementsInstanced(GL_TRIANGLES, shape.count, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(count));
       drawn.triangles += static_cast<std::size_t>(shape.count) / 3 * static_cast<std::size_t>(count);
